@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,9 +34,9 @@ Json counted_json(const std::optional<trade::Synthesis>& done) {
 }
 
 /// What the estimate is a sum of, by which tools/area fits it.
-Json terms_json(const Config& config) {
+Json terms_json(const Config& config, std::span<const CellTerm> terms) {
   Json j = Json::object();
-  for (const CellTerm& t : kCellTermInfo) j[std::string(t.name)] = t.value(config);
+  for (const CellTerm& t : terms) j[std::string(t.name)] = t.value(config);
   return j;
 }
 
@@ -73,7 +74,8 @@ int run(const AreaCommand& o) {
                  {"estimated", {{"luts", cells.luts}, {"flip_flops", cells.flip_flops}}},
                  {"ram_bits", cells.ram_bits},
                  {"bits_per_pixel", cells.bits_per_pixel},
-                 {"terms", terms_json(named.config)},
+                 {"terms", terms_json(named.config, kCellTermInfo)},
+                 {"front_end_terms", named.config.active > 0 ? terms_json(named.config, kFrontEndTermInfo) : nullptr},
                  {"config", cli::to_json(named.config)}});
   }
   write_json(o, {"kage.area/1", j});

@@ -180,7 +180,7 @@ module front_end #(
       .out_ready_i(edge_taken),
       .out_data_o (edge_first)
   );
-  stream_register #(
+  skid_buffer #(
       .BITS(WalkedEdgeBits)
   ) u_edge_next (
       .clk_i,
@@ -205,6 +205,7 @@ module front_end #(
     logic at_once;  // it is none of these
     logic of_level;
     logic misplaced;  // whether a polygon waits for its edges or not
+    logic flushes;  // it lets the list's polygons go first, where no polygon waits for its edges
     logic side;
     logic last;
     logic [EndLineBits-1:0] end_line;  // of an EDGE: the line behind its last
@@ -244,6 +245,7 @@ module front_end #(
     if ((coming.polygon || coming.an_edge || coming.span) && !placed_q) coming.misplaced = 1'b1;
     if (coming.span && place_q[PlaceBits-1-:2] != layer_of_span) coming.misplaced = 1'b1;
     if (coming.gradient && next[GradientChannelLsb+:2] >= 2'(CHANNELS)) coming.misplaced = 1'b1;
+    coming.flushes = (coming.polygon || coming.span || coming.eol || coming.an_edge) && !coming.misplaced;
     coming.side = next[EdgeSideLsb];
     coming.last = next[EdgeLastLsb];
     coming.end_line = past_bottom[SubpixelBits-:EndLineBits];
@@ -287,8 +289,8 @@ module front_end #(
   assign misplaced = is_q.misplaced || (is_q.of_level && begun_q && !is_q.an_edge && !is_q.gradient) ||
       (is_q.gradient && !begun_q);
   // The list's polygons that come before the token are given first.
-  assign flushing = head_q && !misplaced && list_left &&
-      (is_q.polygon || is_q.span || is_q.eol || (is_q.an_edge && !begun_q)) && (!list_valid || is_q.eol || list_before || (is_q.polygon && list_same));
+  assign flushing = head_q && is_q.flushes && !begun_q && list_left &&
+      (!list_valid || is_q.eol || list_before || (is_q.polygon && list_same));
   assign completes = is_q.an_edge && begun_q && have_q[!is_q.side];
   always_comb begin
     fault = misplaced;
@@ -442,10 +444,10 @@ module front_end #(
 
   // ---- what goes beside the walk, the queue behind it, and the way out ---------------------------------------------
   // The walk never waits: an item enters when there is room for it in the queue behind.
-  localparam int ItemBits = 1 + FamilyBits + 32 + FlagsBits + OutBits;
+  localparam int ItemBits = 2 + FamilyBits + 32 + FlagsBits + OutBits;
   logic [ItemBits-1:0] item_in, item_next;
   logic [MadeSpanBits-1:0] span_next;
-  logic item_room, item_there, made_room, made_there, made_in, made_next;
+  logic item_room, item_there, made_room, made_there, made_in, made_next, whole;
   logic out_next, item_ready, ending, made_valid, made_ready;
   logic [OutBits-1:0] made;
   flags_t item_flags, made_flags;
@@ -458,8 +460,10 @@ module front_end #(
     item_flags.fault = gives_token && fault ? code : ErrNone;
   end
   assign made_in = list_pop || gives_fresh;
-  assign family  = flushing ? list[ActivePlaceAt+RankBits+:FamilyBits] : place_q[RankBits+:FamilyBits];
-  assign item_in = {gives_token && (is_q.at_once || fault), family, index, item_flags, token_q[OutBits-1:0]};
+  assign whole = is_q.span && !fault && token_q[KindBits-1:0] == KindNc &&
+      token_q[RangeXlLsb+:X_BITS] == '0 && token_q[RangeXrLsb+:X_BITS] == width_q;
+  assign family = flushing ? list[ActivePlaceAt+RankBits+:FamilyBits] : place_q[RankBits+:FamilyBits];
+  assign item_in = {gives_token && (is_q.at_once || fault), whole, family, index, item_flags, token_q[OutBits-1:0]};
   stream_fifo #(
       .BITS (1 + ItemBits),
       .DEPTH(Under)

@@ -5,7 +5,7 @@
 //
 // Handshake: valid/ready on both sides, item_* with span_i where the item is a polygon's (item_made_i). item_ready_o
 //   depends on token_ready_i, which comes from a register.
-// Item: {plain: a token that passes as it is, whatever volumes are open; family: the place but for its rank; index: in
+// Item: {plain: a token that passes as it is, whatever volumes are open; whole: a near cap over the whole line; family: the place but for its rank; index: in
 //   the frame, of the token at hand; flags, token: of one that is not a polygon's}.
 // flush_i: nothing is open, as after reset and behind a header.
 // Latency: 1 clock. Throughput: a token a clock; an end of a volume, of a sample, and RESOLVE are tokens like others. A
@@ -17,7 +17,7 @@ module volume_ends #(
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
     parameter int TOKEN_WORDS = 5,
-    localparam int ItemBits = 1 + FamilyBits + 32 + FlagsBits + TOKEN_WORDS * 32
+    localparam int ItemBits = 2 + FamilyBits + 32 + FlagsBits + TOKEN_WORDS * 32
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
@@ -50,6 +50,7 @@ module volume_ends #(
   // ---- an item on its way into the register ------------------------------------------------------------------------
   typedef struct packed {
     logic plain;
+    logic whole;
     logic [FamilyBits-1:0] family;
     logic [31:0] index;
     flags_t flags;
@@ -140,8 +141,7 @@ module volume_ends #(
     judged.behind_volumes = !coming.plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
     judged.other_volume = coming.family != family_q;
     judged.other_sample = coming.family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
-    judged.whole = !item_made_i && !coming.plain && DSF_BITS > 0 && kind == KindNc &&
-        coming.token[RangeXlLsb+:X_BITS] == '0 && coming.token[RangeXrLsb+:X_BITS] == width_i;
+    judged.whole = DSF_BITS > 0 && !item_made_i && coming.whole;
     judged.light = coming.family[SampleAt+:LightBits];
     judged.index = coming.index;
     judged.flags = item_made_i ? '0 : coming.flags;

@@ -64,14 +64,33 @@ const std::array<CellTerm, kCellTerms> kCellTermInfo{{
      }},
 }};
 
-Cells estimated_cells(const Config& config) {
-  Cells cells;
-  const CellFit& fit = banked(config) ? kBankedFit : kSystolicFit;
-  for (std::size_t i = 0; i < kCellTerms; ++i) {
-    const double term = kCellTermInfo[i].value(config);
+// Fixed control, the queues of tokens, the walk of depth and that of colours.
+const std::array<CellTerm, kFrontEndTerms> kFrontEndTermInfo{{
+    {"one", [](const Config&) { return 1.0; }},
+    {"token_bits", token_bits},
+    {"plane_bits", [](const Config& c) { return whole(derived::plane_bits(c)); }},
+    {"gradients_bits", [](const Config& c) { return whole(derived::gradients_bits(c)); }},
+}};
+
+namespace {
+
+template <std::size_t N>
+void add(Cells& cells, const Config& config, const std::array<CellTerm, N>& terms, const CellFit<N>& fit) {
+  for (std::size_t i = 0; i < N; ++i) {
+    const double term = terms[i].value(config);
     cells.luts += fit.luts[i] * term;
     cells.flip_flops += fit.flip_flops[i] * term;
   }
+}
+
+const CellFit<kCellTerms>& fit_of(const Config& config) { return banked(config) ? kBankedFit : kSystolicFit; }
+
+}  // namespace
+
+Cells estimated_cells(const Config& config) {
+  Cells cells;
+  add(cells, config, kCellTermInfo, fit_of(config));
+  if (config.active > 0) add(cells, config, kFrontEndTermInfo, kFrontEndFit);
   cells.bits_per_pixel = derived::pixel_bits(config);
   const auto bits = [&cells](auto words, auto width) {
     cells.ram_bits += static_cast<std::uint64_t>(words) * static_cast<std::uint64_t>(width);
@@ -86,12 +105,19 @@ Cells estimated_cells(const Config& config) {
     bits(config.units * (2 << config.face_bits), derived::entry_bits(config));
     bits(groups, lanes * (config.z_bits + derived::rgb_bits(config) + derived::class_field_bits(config)));
   }
+  if (config.active > 0)  // two banks, each a power of two
+    bits(2 * std::max(2U, std::bit_ceil(static_cast<unsigned>(config.active))), derived::active_bits(config));
   return cells;
 }
 
 CellSpread cell_spread(const Config& config) {
-  const CellFit& fit = banked(config) ? kBankedFit : kSystolicFit;
-  return {fit.luts_spread, fit.flip_flops_spread};
+  const auto& fit = fit_of(config);
+  CellSpread spread{fit.luts_spread, fit.flip_flops_spread};
+  if (config.active > 0) {
+    spread.luts = std::max(spread.luts, kFrontEndFit.luts_spread);
+    spread.flip_flops = std::max(spread.flip_flops, kFrontEndFit.flip_flops_spread);
+  }
+  return spread;
 }
 
 }  // namespace kage

@@ -33,12 +33,14 @@ struct CellSpread {
 };
 CellSpread cell_spread(const Config& config);
 
-/// What the fit is a sum of.
+/// What a fit is a sum of: that of the core behind the front end, and that of the front end, where there is one.
 struct CellTerm {
   std::string_view name;
   double (*value)(const Config&);
 };
 inline constexpr std::size_t kCellTerms = 17;
+inline constexpr std::size_t kFrontEndTerms = 4;
 extern const std::array<CellTerm, kCellTerms> kCellTermInfo;
+extern const std::array<CellTerm, kFrontEndTerms> kFrontEndTermInfo;
 
 }  // namespace kage
