@@ -8,6 +8,8 @@ echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 6}' >small.yaml
 echo '{LANES: 4, X_BITS: 7, MAX_WIDTH: 80, ACTIVE: 48}' >front.yaml
 expect 0 "$kage" cosim random:mixed --front-end rtl --config small.yaml --frames 120 --seed 5 --out random --json r.json
 json r.json 'j["same"] and j["frames"] == 120'
+expect 0 "$kage" cosim random:mixed --config small.yaml --frames 60 --seed 6 --out spans --json r.json
+json r.json 'j["same"] and j["frames"] == 60 and j["config"]["ACTIVE"] == 6'
 expect 0 "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --out scene --json s.json
 json s.json 'j["same"] and j["config"]["ACTIVE"] == 48'
 # A defect that no pixel shows is found by the stages alone: spans of one pixel keep their step.
