@@ -225,8 +225,10 @@ void add_info(CLI::App& app, Action& action) {
   c->add_option("--tokens", o->tokens, "of a stream: print frame N, from 0, token by token (not with --json -)")
       ->check(whole_number(0, std::numeric_limits<int>::max()))
       ->type_name("N");
-  c->add_flag("--clocks", o->clocks,
-              "of a stream: how many clocks a core takes for a line at most: mean, worst line, worst neighbours");
+  c->add_flag(
+      "--clocks", o->clocks,
+      "of a stream: how many clocks a core takes for a line at most: mean, worst line, worst neighbours; at the "
+      "polygon level those of the core behind the front end alone (docs/timing.md)");
   option_config(*c, *o);
   option_outside(*c, *o);
   option_json(*c, *o);

@@ -394,6 +394,10 @@ void add_plan(CLI::App& app, Action& action) {
       ->check(whole_number(1, 100000))
       ->type_name("N");
   option_front_end(*c, *o);
+  c->get_option("--front-end")
+      ->description(
+          "who makes spans of polygons, default host: with rtl the core gets a front end, and ACTIVE is the most "
+          "polygons that a line has, as far as a front end keeps so many (docs/plan.md)");
   options_of_pictures(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

@@ -8,8 +8,18 @@ echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 6}' >small.yaml
 echo '{LANES: 4, X_BITS: 7, MAX_WIDTH: 80, ACTIVE: 48}' >front.yaml
 expect 0 "$kage" cosim random:mixed --front-end rtl --config small.yaml --frames 120 --seed 5 --out random --json r.json
 json r.json 'j["same"] and j["frames"] == 120'
+expect 0 "$kage" cosim random:mixed --config small.yaml --frames 60 --seed 6 --out spans --json r.json
+json r.json 'j["same"] and j["frames"] == 60 and j["config"]["ACTIVE"] == 6'
 expect 0 "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --out scene --json s.json
 json s.json 'j["same"] and j["config"]["ACTIVE"] == 48'
+# A defect that no pixel shows is found by the stages alone: spans of one pixel keep their step.
+data_copy data
+sed -i "s/pixels == SpanBits'(1)/1'b0/" data/rtl/polygon_walk.sv
+! cmp -s data/rtl/polygon_walk.sv "$source/rtl/polygon_walk.sv" || fail "the RTL is not what this test edits"
+expect 1 env KAGE_DATA_DIR="$PWD/data" "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --out stage --json d.json
+grep -q 'the pixels are the same, and a stage is not: token to frame control$' stdout || fail "no stage: $(cat stdout)"
+grep -q 'first divergence: .*rtl/front_end.sv), dz: expected 0, got ' stdout || fail "no divergence: $(cat stdout)"
+json d.json 'not j["same"] and j["first_difference"]["field"] == "stage"'
 # The fields of the first stage that differs name the front end.
 expect 1 "$kage" cosim courtyard --front-end rtl --config front.yaml --size 80x60 --frames 1 --out wrong --fault front_end_edge
 grep -q 'first divergence: .*rtl/front_end.sv' stdout || fail "no divergence of front_end: $(cat stdout)"

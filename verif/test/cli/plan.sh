@@ -35,6 +35,19 @@ grep -q '^kage: the RTL model of .* is there$' stderr || fail "$(cat stderr)"
 expect 0 env XDG_CACHE_HOME="$PWD/no-models" "$kage" cosim courtyard --size 64x48 --frames 1 --config plan --no-report --out out
 grep -q '^kage: the RTL model of .* is not there, and is built first$' stderr || fail "$(cat stderr)"
 
+# A front end has room for all polygons at once, and one less has not; nothing else is planned otherwise.
+grep -q '^ACTIVE: 0 ' mine.yaml || fail "$(grep ACTIVE mine.yaml)"
+expect 0 "$kage" plan courtyard --size 64x48 --frames 2 --front-end rtl --json front.json
+cp stdout front.yaml
+diff <(grep '^[A-Z]' mine.yaml | grep -v '^ACTIVE:') <(grep '^[A-Z]' front.yaml | grep -v '^ACTIVE:') || fail "a front end changes other parameters"
+active=$(sed -n 's/^ACTIVE: \([0-9]*\) .*/\1/p' front.yaml)
+for less in 0 1; do
+  sed "s/^ACTIVE:.*/ACTIVE: $((active - less))/" front.yaml >less.yaml
+  expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config less.yaml --level polygons --out less.kage --json less.json
+  [ "$(grep -c 'more at once than ACTIVE' stdout)" = $less ] || fail "ACTIVE $active - $less: $(cat stdout)"
+  [ $less = 1 ] || json less.json "j['words'] == $(python3 -c 'import json; print(json.load(open("front.json"))["polygon_words"])')"
+done
+
 # Without --config: never by --frames, and what is looked for in the list.
 for frames in 1 2 8; do
   expect 0 "$kage" render canopy --size 640x480 --frames $frames --out out

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# docs/plan.md: its command prints what it shows, and its table of scenes is what kage info prints.
+# docs/plan.md: its commands print what it shows, and its table of scenes is what kage info prints.
 . "$(dirname "$0")/common.bash"
 
 mkdir bin && ln -s "$kage" bin/kage
-python3 "$source/verif/test/cli/shown.py" "$source/docs/plan.md" 0 || fail "docs/plan.md shows something else than its command prints"
+python3 "$source/verif/test/cli/shown.py" "$source/docs/plan.md" 0 0 0 || fail "docs/plan.md shows something else than its commands print"
 python3 - "$kage" "$source/docs/plan.md" <<'PY' || fail "docs/plan.md: the table of scenes"
 import json, re, subprocess, sys
 kage, page = sys.argv[1], open(sys.argv[2]).read()

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# docs/stream.md: the commands of its first example print the line it reads aloud. docs/stream-files.md: its command makes the
-# bytes it shows, and its Python reads them, and refuses a changed file.
+# docs/stream.md: the commands of its examples print the line it reads aloud, by spans and by polygons, and the front end makes
+# the spans at the tokens that the page names. docs/stream-files.md: its command makes the bytes it shows, and its Python reads
+# them, and refuses a changed file.
 . "$(dirname "$0")/common.bash"
 
 # block PAGE LANGUAGE HEADING: the page's first code block of that language from that heading on.
@@ -10,13 +11,21 @@ block() {
     on && !inside && /^```/ { inside = 1; take = ($0 == lang && !seen++); next } inside && take' "$source/docs/$1.md"
 }
 
-block stream sh "## One line, read aloud" >commands
 mkdir bin && ln -s "$kage" bin/kage
-expect 0 env PATH="$temp/bin:$PATH" sh -e commands
-sed -n '/EOL 0$/,$p' stdout >made
-block stream "" "## One line, read aloud" >shown
-[ "$(wc -l <shown)" = 13 ] || fail "no line in docs/stream.md"
-diff shown made || fail "docs/stream.md shows another line than its commands print"
+read_aloud() { # HEADING LINES: what the commands under it print is the line that is shown under it
+  block stream sh "$1" >commands
+  expect 0 env PATH="$temp/bin:$PATH" sh -e commands
+  sed -n '/EOL 0$/,$p' stdout >made
+  block stream "" "$1" >shown
+  [ "$(wc -l <shown)" = "$2" ] || fail "no line in docs/stream.md, $1"
+  diff shown made || fail "docs/stream.md, $1, shows another line than its commands print"
+}
+read_aloud "## One line, read aloud" 13
+read_aloud "### The same line, read aloud" 15
+expect 0 "$kage" diff line.kage polygons.kage
+expect 0 "$kage" explain polygons.kage --pixel 25,1
+at=$(sed -n 's/^ *\([0-9]*\)  \([A-Z]*\).*, made by the front end$/\1 \2/p' stdout | paste -sd, -)
+[ "$at" = "12 OP,14 SP,14 EV,19 SP,23 SP,24 EV,24 RESOLVE" ] || fail "the front end makes, at other tokens than docs/stream.md says: $at"
 
 block stream-files sh "## By hand" >commands
 [ "$(wc -l <commands)" = 2 ] || fail "not two commands: $(cat commands)"
