@@ -35,14 +35,12 @@ module plane_at #(
   localparam logic [KernelBits-1:0] StartRounding = StepRounding + HalfLsb;
 
   logic [KernelBits-1:0] here, start, step;
-  logic [BITS-1:0] right_q[3];
+  logic [3*BITS-1:0] right_q;
   logic [2:0] single_q;
   logic [3:0] unused_handshake;
   always_ff @(posedge clk_i) begin
-    right_q[0] <= right_i;
-    right_q[1] <= right_q[0];
-    right_q[2] <= right_q[1];
-    single_q   <= {single_q[1:0], single_i};
+    right_q  <= {right_q[0+:2*BITS], right_i};
+    single_q <= {single_q[1:0], single_i};
   end
 
   hls_plane_step u_step (
@@ -67,7 +65,7 @@ module plane_at #(
       .out_valid_o     (unused_handshake[3]),
       .out_ready_i     (1'b1),
       .value_i         (here),
-      .slope_i         (KernelBits'(right_q[2])),
+      .slope_i         (KernelBits'(right_q[2*BITS+:BITS])),
       .single_i        (single_q[2]),
       .start_rounding_i(StartRounding),
       .step_rounding_i (StepRounding),

@@ -67,14 +67,14 @@ module polygon_walk #(
     else in_line = SpanBits'(x);
   endfunction
 
-  logic [WalkedEdgeBits-1:0] edges[2];
-  logic [WalkedEdgeBits-1:0] stepped[2];
-  logic [SpanBits-1:0] crossing[2];
-  assign edges[0] = polygon_q[ActiveDownEdgeAt+:WalkedEdgeBits];
-  assign edges[1] = polygon_q[ActiveUpEdgeAt+:WalkedEdgeBits];
+  logic [2*WalkedEdgeBits-1:0] stepped;
+  logic [SpanBits-1:0] down, up;
+  assign down = in_line(polygon_q[ActiveDownEdgeAt+:CrossBits], width_i);
+  assign up   = in_line(polygon_q[ActiveUpEdgeAt+:CrossBits], width_i);
   for (genvar side = 0; side < 2; side++) begin : gen_edges
+    localparam int At = side == 0 ? ActiveDownEdgeAt : ActiveUpEdgeAt;
+    localparam int Out = side * WalkedEdgeBits;
     logic unused_ready, unused_valid;
-    assign crossing[side] = in_line(edges[side][CrossBits-1:0], width_i);
     hls_edge_step u_step (
         .clk_i,
         .rst_ni,
@@ -82,16 +82,16 @@ module polygon_walk #(
         .in_ready_o (unused_ready),
         .out_valid_o(unused_valid),
         .out_ready_i(1'b1),
-        .x_i        (edges[side][0+:CrossBits]),
-        .step_i     (edges[side][CrossBits+:CrossBits]),
-        .rest_i     (edges[side][2*CrossBits+:RestBits]),
-        .rest_step_i(edges[side][2*CrossBits+RestBits+:RestBits]),
-        .dy_i       (edges[side][2*CrossBits+2*RestBits+:RestBits]),
-        .x_o        (stepped[side][0+:CrossBits]),
-        .step_o     (stepped[side][CrossBits+:CrossBits]),
-        .rest_o     (stepped[side][2*CrossBits+:RestBits]),
-        .rest_step_o(stepped[side][2*CrossBits+RestBits+:RestBits]),
-        .dy_o       (stepped[side][2*CrossBits+2*RestBits+:RestBits])
+        .x_i        (polygon_q[At+:CrossBits]),
+        .step_i     (polygon_q[At+CrossBits+:CrossBits]),
+        .rest_i     (polygon_q[At+2*CrossBits+:RestBits]),
+        .rest_step_i(polygon_q[At+2*CrossBits+RestBits+:RestBits]),
+        .dy_i       (polygon_q[At+2*CrossBits+2*RestBits+:RestBits]),
+        .x_o        (stepped[Out+:CrossBits]),
+        .step_o     (stepped[Out+CrossBits+:CrossBits]),
+        .rest_o     (stepped[Out+2*CrossBits+:RestBits]),
+        .rest_step_o(stepped[Out+2*CrossBits+RestBits+:RestBits]),
+        .dy_o       (stepped[Out+2*CrossBits+2*RestBits+:RestBits])
     );
   end
 
@@ -100,12 +100,12 @@ module polygon_walk #(
   logic turned_q, empty_q, single_q;
   logic turned;
   logic [SpanBits-1:0] pixels;
-  assign turned = crossing[1] < crossing[0];
-  assign pixels = turned ? crossing[0] - crossing[1] : crossing[1] - crossing[0];
+  assign turned = up < down;
+  assign pixels = turned ? down - up : up - down;
   always_ff @(posedge clk_i) begin
     walked_q <= polygon_q;
-    xl_q <= X_BITS'(turned ? crossing[1] : crossing[0]);
-    xr_q <= X_BITS'(turned ? crossing[0] : crossing[1]);
+    xl_q <= X_BITS'(turned ? up : down);
+    xr_q <= X_BITS'(turned ? down : up);
     turned_q <= turned;
     empty_q <= pixels == '0;
     single_q <= pixels == SpanBits'(1);
@@ -116,8 +116,8 @@ module polygon_walk #(
   assign swap_write_o = valid_q[1] && swap_q[1];
   always_comb begin
     next_o = walked_q;
-    next_o[ActiveDownEdgeAt+:WalkedEdgeBits] = stepped[0];
-    next_o[ActiveUpEdgeAt+:WalkedEdgeBits] = stepped[1];
+    next_o[ActiveDownEdgeAt+:WalkedEdgeBits] = stepped[0+:WalkedEdgeBits];
+    next_o[ActiveUpEdgeAt+:WalkedEdgeBits] = stepped[WalkedEdgeBits+:WalkedEdgeBits];
     next_o[ActiveValueAt+:PlaneBits] = walked_q[ActiveValueAt+:PlaneBits] + walked_q[ActiveDownAt+:PlaneBits];
     if (SMOOTH > 0) begin
       for (int c = 0; c < CHANNELS; c++) begin
@@ -131,14 +131,13 @@ module polygon_walk #(
   // ---- 2 to 5: planes at the span's first pixel, rounded -----------------------------------------------------------
   // What a span has of its polygon but its planes goes along.
   localparam int AlongBits = LookBits + 2 * X_BITS + 2;
-  logic [AlongBits-1:0] along_q  [4];
-  logic [ LookBits-1:0] out_look;
+  logic [4*AlongBits-1:0] along_q;
+  logic [LookBits-1:0] out_look;
   logic [X_BITS-1:0] out_xl, out_xr;
   logic out_turned, out_empty;
-  assign {out_look, out_xl, out_xr, out_turned, out_empty} = along_q[3];
+  assign {out_look, out_xl, out_xr, out_turned, out_empty} = along_q[3*AlongBits+:AlongBits];
   always_ff @(posedge clk_i) begin
-    along_q[0] <= {walked_q[ActiveLookAt+:LookBits], xl_q, xr_q, turned_q, empty_q};
-    for (int i = 1; i < 4; i++) along_q[i] <= along_q[i-1];
+    along_q <= {along_q[0+:3*AlongBits], walked_q[ActiveLookAt+:LookBits], xl_q, xr_q, turned_q, empty_q};
   end
 
   logic [DepthBits-1:0] z, dz;

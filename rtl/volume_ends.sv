@@ -48,51 +48,89 @@ module volume_ends #(
   localparam int SomeClassBits = ClassBits > 0 ? ClassBits : 1;
 
   // ---- an item on its way into the register ------------------------------------------------------------------------
-  typedef struct packed {
-    logic plain;
-    logic whole;
-    logic [FamilyBits-1:0] family;
-    logic [31:0] index;
-    flags_t flags;
-    logic [TokenBits-1:0] token;
-  } item_t;
-  item_t coming;
+  logic plain, whole;
+  logic [FamilyBits-1:0] family;
+  logic [31:0] index;
+  flags_t flags;
+  logic [TokenBits-1:0] token;
   made_span_t coming_span;
   logic [1:0] layer;
   logic [KindBits-1:0] kind;
-  assign coming = item_i;
+  assign {plain, whole, family, index, flags, token} = item_i;
   assign coming_span = span_i;
-  assign layer = coming.family[FamilyBits-1-:2];
-  assign kind = coming.token[KindBits-1:0];
+  assign layer = family[FamilyBits-1-:2];
+  assign kind = token[KindBits-1:0];
 
   // ---- a polygon's span as a token ---------------------------------------------------------------------------------
+  // Functions, because Icarus Verilog does not end where blocks that build a vector by its parts wait for each other.
+  function automatic logic [TokenBits-1:0] op_of(input logic [X_BITS-1:0] xl, input logic [X_BITS-1:0] xr,
+                                                 input logic [SomeClassBits-1:0] normal_class,
+                                                 input logic [DepthBits-1:0] z, input logic [DepthBits-1:0] dz,
+                                                 input logic [ColorBits-1:0] color, input logic [SlopeBits-1:0] dcolor);
+    logic unused_bits;
+    unused_bits = ^{normal_class, dcolor};
+    op_of = '0;
+    op_of[KindBits-1:0] = KindOp;
+    op_of[OpXlLsb+:X_BITS] = xl;
+    op_of[OpXrLsb+:X_BITS] = xr;
+    if (ClassBits > 0) op_of[OpClassLsb+:SomeClassBits] = normal_class;
+    op_of[OpZLsb+:DepthBits] = z;
+    op_of[OpDzLsb+:DepthBits] = dz;
+    op_of[OpColorLsb+:ColorBits] = color;
+    if (SMOOTH > 0) op_of[OpDcolorLsb+:SlopeBits] = dcolor;
+  endfunction
+
+  function automatic logic [TokenBits-1:0] sp_of(input logic [X_BITS-1:0] xl, input logic [X_BITS-1:0] xr,
+                                                 input logic [DSF_BITS:0] w, input logic [DepthBits-1:0] z,
+                                                 input logic [DepthBits-1:0] dz);
+    sp_of = '0;
+    sp_of[KindBits-1:0] = KindSp;
+    sp_of[SpXlLsb+:X_BITS] = xl;
+    sp_of[SpXrLsb+:X_BITS] = xr;
+    sp_of[SpWLsb+:DSF_BITS+1] = w;
+    sp_of[SpZLsb+:DepthBits] = z;
+    sp_of[SpDzLsb+:DepthBits] = dz;
+  endfunction
+
+  function automatic logic [TokenBits-1:0] tp_of(
+      input logic [X_BITS-1:0] xl, input logic [X_BITS-1:0] xr, input logic [7:0] alpha, input logic [DepthBits-1:0] z,
+      input logic [DepthBits-1:0] dz, input logic [ColorBits-1:0] color, input logic [SlopeBits-1:0] dcolor);
+    logic unused_bits;
+    unused_bits = ^dcolor;
+    tp_of = '0;
+    tp_of[KindBits-1:0] = KindTp;
+    tp_of[TpXlLsb+:X_BITS] = xl;
+    tp_of[TpXrLsb+:X_BITS] = xr;
+    tp_of[TpAlphaLsb+:8] = alpha;
+    tp_of[TpZLsb+:DepthBits] = z;
+    tp_of[TpDzLsb+:DepthBits] = dz;
+    tp_of[TpColorLsb+:ColorBits] = color;
+    if (SMOOTH > 0) tp_of[TpDcolorLsb+:SlopeBits] = dcolor;
+  endfunction
+
+  // What a near cap of this weight over the whole line says.
+  function automatic logic [TokenBits-1:0] if_of(input logic [DSF_BITS:0] w);
+    if_of = '0;
+    if_of[KindBits-1:0] = KindIf;
+    if_of[IfWLsb+:DSF_BITS+1] = w;
+  endfunction
+
   logic [TokenBits-1:0] made_op, made_sp, made_tp;
   logic no_weight;
-  always_comb begin
-    made_op = '0;
-    made_op[KindBits-1:0] = KindOp;
-    made_op[OpXlLsb+:X_BITS] = coming_span.xl;
-    made_op[OpXrLsb+:X_BITS] = coming_span.xr;
-    if (ClassBits > 0) made_op[OpClassLsb+:SomeClassBits] = coming_span.look[0+:SomeClassBits];
-    made_op[OpZLsb+:DepthBits] = coming_span.z;
-    made_op[OpDzLsb+:DepthBits] = coming_span.dz;
-    made_op[OpColorLsb+:ColorBits] = coming_span.color;
-    if (SMOOTH > 0) made_op[OpDcolorLsb+:SlopeBits] = coming_span.dcolor;
-  end
+  assign made_op = op_of(
+      coming_span.xl,
+      coming_span.xr,
+      coming_span.look[0+:SomeClassBits],
+      coming_span.z,
+      coming_span.dz,
+      coming_span.color,
+      coming_span.dcolor
+  );
   if (DSF_BITS > 0) begin : gen_sp
-    logic [DSF_BITS:0] w, turned_w;
+    logic [DSF_BITS:0] w;
     assign w = coming_span.look[PolygonWLsb-KindBits+:DSF_BITS+1];
-    assign turned_w = coming_span.turned ? -w : w;
+    assign made_sp = sp_of(coming_span.xl, coming_span.xr, coming_span.turned ? -w : w, coming_span.z, coming_span.dz);
     assign no_weight = coming_span.look[PolygonWLsb-KindBits+:DSF_BITS] == '0;
-    always_comb begin
-      made_sp = '0;
-      made_sp[KindBits-1:0] = KindSp;
-      made_sp[SpXlLsb+:X_BITS] = coming_span.xl;
-      made_sp[SpXrLsb+:X_BITS] = coming_span.xr;
-      made_sp[SpWLsb+:DSF_BITS+1] = turned_w;
-      made_sp[SpZLsb+:DepthBits] = coming_span.z;
-      made_sp[SpDzLsb+:DepthBits] = coming_span.dz;
-    end
   end else begin : gen_no_sp
     logic unused_turned;
     assign unused_turned = coming_span.turned;
@@ -100,17 +138,15 @@ module volume_ends #(
     assign no_weight = 1'b1;
   end
   if (TRANSLUCENCY > 0) begin : gen_tp
-    always_comb begin
-      made_tp = '0;
-      made_tp[KindBits-1:0] = KindTp;
-      made_tp[TpXlLsb+:X_BITS] = coming_span.xl;
-      made_tp[TpXrLsb+:X_BITS] = coming_span.xr;
-      made_tp[TpAlphaLsb+:8] = coming_span.look[PolygonAlphaLsb-KindBits+:8];
-      made_tp[TpZLsb+:DepthBits] = coming_span.z;
-      made_tp[TpDzLsb+:DepthBits] = coming_span.dz;
-      made_tp[TpColorLsb+:ColorBits] = coming_span.color;
-      if (SMOOTH > 0) made_tp[TpDcolorLsb+:SlopeBits] = coming_span.dcolor;
-    end
+    assign made_tp = tp_of(
+        coming_span.xl,
+        coming_span.xr,
+        coming_span.look[PolygonAlphaLsb-KindBits+:8],
+        coming_span.z,
+        coming_span.dz,
+        coming_span.color,
+        coming_span.dcolor
+    );
   end else begin : gen_no_tp
     assign made_tp = '0;
   end
@@ -124,49 +160,42 @@ module volume_ends #(
     logic other_volume;
     logic other_sample;
     logic whole;  // a near cap over the whole line, which is what IF says
-    logic [LightBits-1:0] light;
-    logic [31:0] index;
-    flags_t flags;
-    logic [TokenBits-1:0] token;
   } judged_t;
-  localparam int JudgedBits = 6 + LightBits + 32 + FlagsBits + TokenBits;
+  localparam int JudgedBits = 6;
   judged_t judged, is_q;
   logic come, item_valid, leaves;
   logic [FamilyBits-1:0] family_q;
-  always_comb begin
-    judged.none = item_made_i && (coming_span.empty || (layer == 2'd1 && no_weight));
-    // What is not plain has a range, or is an EOL.
-    judged.of_volume = !coming.plain && DSF_BITS > 0 &&
-        (item_made_i ? layer == 2'd1 : kind_has_range(kind) && kind != KindOp && kind != KindTp);
-    judged.behind_volumes = !coming.plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
-    judged.other_volume = coming.family != family_q;
-    judged.other_sample = coming.family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
-    judged.whole = DSF_BITS > 0 && !item_made_i && coming.whole;
-    judged.light = coming.family[SampleAt+:LightBits];
-    judged.index = coming.index;
-    judged.flags = item_made_i ? '0 : coming.flags;
-    judged.token = coming.token;
-    if (judged.whole) begin
-      judged.token = '0;
-      judged.token[KindBits-1:0] = KindIf;
-      judged.token[IfWLsb+:DSF_BITS+1] = coming.token[NcWLsb+:DSF_BITS+1];
-    end
-    if (item_made_i) judged.token = layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
-  end
+  logic [TokenBits-1:0] comes_to, token_q;
+  flags_t comes_with, flags_q;
+  logic [LightBits-1:0] of_light_q;
+  logic [31:0] index_q;
+  assign judged.none = item_made_i && (coming_span.empty || (layer == 2'd1 && no_weight));
+  // What is not plain has a range, or is an EOL.
+  assign judged.of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 : kind_has_range(
+      kind
+  ) && kind != KindOp && kind != KindTp);
+  assign judged.behind_volumes = !plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
+  assign judged.other_volume = family != family_q;
+  assign judged.other_sample = family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
+  assign judged.whole = DSF_BITS > 0 && !item_made_i && whole;
+  assign comes_with = item_made_i ? '0 : flags;
+  assign comes_to = !item_made_i ? (judged.whole ? if_of(
+      token[NcWLsb+:DSF_BITS+1]
+  ) : token) : layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
   assign come = item_valid_i && item_ready_o;
-  always_ff @(posedge clk_i) if (come && judged.of_volume && !judged.none) family_q <= coming.family;
+  always_ff @(posedge clk_i) if (come && judged.of_volume && !judged.none) family_q <= family;
 
   stream_register #(
-      .BITS(JudgedBits)
+      .BITS(JudgedBits + LightBits + 32 + FlagsBits + TokenBits)
   ) u_item (
       .clk_i,
       .rst_ni     (rst_ni && !flush_i),
       .in_valid_i (item_valid_i),
       .in_ready_o (item_ready_o),
-      .in_data_i  (judged),
+      .in_data_i  ({judged, family[SampleAt+:LightBits], index, comes_with, comes_to}),
       .out_valid_o(item_valid),
       .out_ready_i(leaves),
-      .out_data_o (is_q)
+      .out_data_o ({is_q, of_light_q, index_q, flags_q, token_q})
   );
 
   // ---- what it does to volumes -------------------------------------------------------------------------------------
@@ -175,8 +204,8 @@ module volume_ends #(
   logic [LightBits-1:0] light_q;
   logic [X_BITS-1:0] volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
   logic ends_volume, ends_sample, resolves, passes, gives, done;
-  assign xl = is_q.whole ? '0 : is_q.token[RangeXlLsb+:X_BITS];
-  assign xr = is_q.whole ? width_i : is_q.token[RangeXrLsb+:X_BITS];
+  assign xl = is_q.whole ? '0 : token_q[RangeXlLsb+:X_BITS];
+  assign xr = is_q.whole ? width_i : token_q[RangeXrLsb+:X_BITS];
   assign ends_volume = !is_q.none && volume_here_q && (is_q.behind_volumes || (is_q.of_volume && is_q.other_volume));
   assign ends_sample = !is_q.none && !volume_here_q && sample_here_q &&
       (is_q.behind_volumes || (is_q.of_volume && is_q.other_sample));
@@ -189,7 +218,7 @@ module volume_ends #(
   assign leaves = done && (passes || is_q.none);
 
   always_ff @(posedge clk_i) begin
-    if (!rst_ni || flush_i || (item_valid && is_q.flags.header)) begin
+    if (!rst_ni || flush_i || (item_valid && flags_q.header)) begin
       any_q <= 1'b0;
       volume_here_q <= 1'b0;
       sample_here_q <= 1'b0;
@@ -206,7 +235,7 @@ module volume_ends #(
       if (resolves) any_q <= 1'b0;
     end
     if (done && passes && is_q.of_volume) begin
-      light_q <= is_q.light;
+      light_q <= of_light_q;
       if (!volume_here_q || xl < volume_xl_q) volume_xl_q <= xl;
       if (!volume_here_q || xr > volume_xr_q) volume_xr_q <= xr;
     end
@@ -226,13 +255,13 @@ module volume_ends #(
       ending[EvXrLsb+:X_BITS] = ends_volume ? volume_xr_q : sample_xr_q;
     end
     if (ends_sample) ending[EsLightLsb+:LightBits] = light_q;
-    token_o = passes ? is_q.token : ending;
-    token_flags_o = passes ? is_q.flags : '0;
+    token_o = passes ? token_q : ending;
+    token_flags_o = passes ? flags_q : '0;
   end
-  assign token_index_o = is_q.index;
+  assign token_index_o = index_q;
 
   logic unused_bits;
-  assign unused_bits = ^{coming, coming_span};
+  assign unused_bits = ^{token, coming_span};
 
 endmodule
 

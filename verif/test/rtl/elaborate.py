@@ -252,6 +252,8 @@ def main():
         name: values or {}
         for name, values in yaml.safe_load((args.source / "rtl/defs/configs.yaml").read_text()).items()
     }
+    for name in ("default", "glass", "lights", "smoothmeshes"):
+        configurations[f"{name} with a front end"] = {**configurations[name], "ACTIVE": 64}
     bad = 0
     with tempfile.TemporaryDirectory() as work:
         for reader in args.readers:
