@@ -174,8 +174,8 @@ void RunReport::tell_pixels(report::Page& page, const std::optional<cosim::Diver
     told.frame = frame;
     told.history = explain_pixel(config, words, x, y);
     if (provenance)
-      for (const auto& [token, source] : provenance->of_history(config, words, told.history))
-        told.from[token] = source.text();
+      for (const auto& [nth, source] : provenance->of_history(config, words, told.history))
+        told.from[nth] = source.text();
     try {
       if (watch) told.rtl = cosim::watch_pixel(from, frame, feed, config, options, x, y);
     } catch (const Error& e) {

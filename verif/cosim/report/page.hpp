@@ -28,7 +28,7 @@ struct ToldPixel {
   int frame = 0;
   PixelHistory history;
   std::vector<cosim::RtlTouch> rtl;
-  std::map<std::uint32_t, std::string> from;  ///< by token: which part of the scene it is of
+  std::map<std::uint32_t, std::string> from;  ///< by PixelTouch::nth: which part of the scene it is of
 };
 
 /// What the page tells. All text may be anything: it is escaped.

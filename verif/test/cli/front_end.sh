@@ -23,4 +23,7 @@ json d.json 'not j["same"] and j["first_difference"]["field"] == "stage"'
 # The fields of the first stage that differs name the front end.
 expect 1 "$kage" cosim courtyard --front-end rtl --config front.yaml --size 80x60 --frames 1 --out wrong --fault front_end_edge
 grep -q 'first divergence: .*rtl/front_end.sv' stdout || fail "no divergence of front_end: $(cat stdout)"
+# Of several spans that the front end makes of one token that one is told which has the field, and what it is of.
+expect 1 "$kage" cosim depths --front-end rtl --config front.yaml --size 80x60 --frames 1 --out depths --no-report --fault front_end_edge --json c.json
+json c.json '(d:=j["first_difference"]["divergence"])["field"]=="xr" and ", %s)" % d["expected"] in d["token_text"] and d["token_text"].endswith(", made by the front end") and "lower crest" in d["source"]'
 done_testing

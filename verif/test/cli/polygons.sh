@@ -48,6 +48,35 @@ json explain.json 'all(t["made"] for t in j["touches"] if t["kind"] in ("OP", "S
 expect 0 "$kage" explain spans.kage --pixel 5,2 --json explain.json
 json explain.json 'len(j["touches"]) > 3 and not any(t["made"] for t in j["touches"])'
 
+# Of a scene a pixel has the same history at both levels, and all of it comes of the same parts of the scene: spans that the
+# front end makes, of which several have the index of one token, and those that go on as they came.
+python3 - "$kage" <<'PY' || fail "histories at the polygon level are not those of the span level"
+import json, random, subprocess, sys
+chance = random.Random(1)
+made, sent, shared, roles, bad = 0, 0, 0, set(), []
+for scene, width, height in ("courtyard", 160, 120), ("inside", 160, 120), ("glass", 96, 64), ("penumbra", 48, 36), ("polyhedra", 96, 64):
+    for _ in range(12):
+        pixel = f"{chance.randrange(width)},{chance.randrange(height)}"
+        line = [sys.argv[1], "explain", scene, "--size", f"{width}x{height}", "--pixel", pixel, "--json", "-"]
+        spans, polygons = (subprocess.run(line + more, capture_output=True, text=True) for more in ([], ["--front-end", "rtl"]))
+        if spans.returncode or polygons.returncode:
+            bad.append(f"{scene} {pixel}: exit {spans.returncode}, {polygons.returncode}")
+            continue
+        spans, polygons = (json.loads(run.stdout) for run in (spans, polygons))
+        told = [[[t["kind"], t["effect"], t["source"], t["before"], t["after"]] for t in j["touches"]] for j in (spans, polygons)]
+        if told[0] != told[1] or spans["color"] != polygons["color"]:
+            bad.append(f"{scene} {pixel}: {next(([a, b] for a, b in zip(*told) if a != b), told)}")
+        indices = [t["token"] for t in polygons["touches"]]
+        shared += len(indices) - len(set(indices))
+        for t in polygons["touches"]:
+            if t["source"] is None: continue
+            roles.add(t["source"]["role"])
+            made += t["made"]
+            sent += not t["made"]
+print(*bad[:3], sep="\n")
+assert not bad and min(made, sent, shared) > 20 and roles >= {"face", "cap", "side", "end", "section with the near plane"}, (made, sent, shared, roles)
+PY
+
 # Random frames at the level.
 echo 'ACTIVE: 6' >front.yaml
 expect 0 "$kage" explain random --front-end rtl --config front.yaml --frame 3 --pixel 0,0

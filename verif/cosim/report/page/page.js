@@ -183,14 +183,14 @@ const Report = (() => {
     const rest = [...rtl];
     const take = (is) => {
       const taken = [];
-      while (rest.length && is(rest[0].token)) taken.push(rest.shift());
+      while (rest.length && is(rest[0].nth)) taken.push(rest.shift());
       return taken;
     };
     for (const t of h.touches) {
       // At tokens of which the history has nothing, as a line's first TP paints pixels beside its span.
-      const before = take((token) => token < t.token);
+      const before = take((nth) => nth < t.nth);
       if (before.length) list.append(make("li", before.map((r) => rtlLine(r, false))));
-      list.append(touchItem(t, take((token) => token === t.token)));
+      list.append(touchItem(t, take((nth) => nth === t.nth)));
     }
     const end = make("li", make("div", h.color_text, {class: "end"}));
     const last = h.touches.at(-1)?.token;
