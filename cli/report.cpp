@@ -203,6 +203,7 @@ std::string RunReport::write(TempFiles& files, const std::string& folder, const 
       page.rtl_options +=
           fmt::format("{}{} {}", page.rtl_options.empty() ? "" : " ", name, quoted(o->results().back()));
   page.explain_rtl = (page.rtl_options.empty() ? "" : " " + page.rtl_options) + " --rtl";
+  page.polygons = source_.level() == Level::polygons;
   std::optional<report::TokenStore> wanted;
   if (run.first_difference && run.first_difference->frame != cosim::kBehindFrames) {
     const std::set<int> bands = bands_that_differ(run);

@@ -161,9 +161,9 @@ Json told_of(const Page& page) {
 
 std::string headline(const Page& page) {
   const cosim::Report& r = *page.run;
-  return fmt::format("{}: {}{}, {}x{}, {} compared{}", r.same ? "same" : "different", counted(r.frames, "frame"),
-                     cosim::taken_text(r.taken.size()), r.width, r.height, counted(r.pixels_compared, "pixel"),
-                     page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
+  return fmt::format("{}: {}{}{}, {}x{}, {} compared{}", r.same ? "same" : "different", counted(r.frames, "frame"),
+                     page.polygons ? " at the polygon level" : "", cosim::taken_text(r.taken.size()), r.width, r.height,
+                     counted(r.pixels_compared, "pixel"), page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
 }
 
 /// The run's record, without what is listed by frame, and what this page has besides.
