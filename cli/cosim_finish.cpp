@@ -57,7 +57,7 @@ std::optional<cosim::Divergence> SceneRun::find_divergence(int frame) {
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   auto d = cosim::find_divergence(frame, feed, config, options);
   if (const auto provenance = d ? source.provenance(d->frame) : std::nullopt) {
-    const auto sources = provenance->of_tokens(config, source.words(d->frame), {d->token});
+    const auto sources = provenance->of_tokens(config, source.words(d->frame), {d->nth});
     if (!sources.empty()) d->source = sources.begin()->second.text();
   }
   progress_.clear();

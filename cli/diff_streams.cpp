@@ -61,7 +61,7 @@ std::string describe(const StreamDiff& d) {
   text += '\n';
   if (d.expanded_frames != 0)
     text +=
-        fmt::format("{} at the polygon level in one stream alone: compared by the spans that its polygons come to\n",
+        fmt::format("{} at the polygon level in one stream alone: compared by the spans that the polygons come to\n",
                     counted(d.expanded_frames, "frame"));
   if (!d.tokens_compared) text += "tokens are not compared: the same words mean others in the two configurations\n";
   for (const StreamDiff::Parameter& p : d.parameters)

@@ -71,9 +71,9 @@ class RtlLines {
  public:
   RtlLines(const std::vector<cosim::RtlTouch>& rtl, bool changes) : rtl_(rtl), changes_(changes) {}
 
-  /// At tokens before this one, of which the history has nothing: as a line's first TP paints pixels beside its span.
-  void before(std::uint32_t token) {
-    for (; next_ < rtl_.size() && rtl_[next_].token < token; ++next_) {
+  /// At tokens before the nth, of which the history has nothing: as a line's first TP paints pixels beside its span.
+  void before(std::uint32_t nth) {
+    for (; next_ < rtl_.size() && rtl_[next_].nth < nth; ++next_) {
       const cosim::RtlTouch& t = rtl_[next_];
       const bool state = t.stage == cosim::Stage::pixel;
       if (!state || !changes_ || !t.same) print(t, state ? fmt::format("token {}, ", t.token) : "");
@@ -81,8 +81,8 @@ class RtlLines {
   }
 
   /// At the token that was just told.
-  void at(std::uint32_t token) {
-    for (; next_ < rtl_.size() && rtl_[next_].token == token; ++next_) print(rtl_[next_], "");
+  void at(std::uint32_t nth) {
+    for (; next_ < rtl_.size() && rtl_[next_].nth == nth; ++next_) print(rtl_[next_], "");
   }
 
  private:
@@ -108,8 +108,8 @@ struct Explained {
   Pixel at;
   PixelHistory history;
   std::size_t touching = 0;  ///< tokens, of which the history may have only those that changed something
-  std::map<std::uint32_t, TokenSource> sources;
-  std::vector<cosim::RtlTouch> rtl;  ///< with --rtl
+  std::map<std::uint32_t, TokenSource> sources;  ///< by PixelTouch::nth
+  std::vector<cosim::RtlTouch> rtl;              ///< with --rtl
 };
 
 Explained explained(const ExplainCommand& o, Source& source, const Pixel& at) {
@@ -129,13 +129,13 @@ Explained explained(const ExplainCommand& o, Source& source, const Pixel& at) {
   // Where the RTL differs stays: it may have changed what was to be left.
   std::set<std::uint32_t> differs;
   for (const cosim::RtlTouch& t : e.rtl)
-    if (!t.same) differs.insert(t.token);
-  std::erase_if(e.history.touches, [&](const PixelTouch& t) { return !t.changed() && differs.count(t.token) == 0; });
+    if (!t.same) differs.insert(t.nth);
+  std::erase_if(e.history.touches, [&](const PixelTouch& t) { return !t.changed() && differs.count(t.nth) == 0; });
   return e;
 }
 
 Json to_json(const PixelTouch& t, const Explained& e, const Config& config) {
-  const auto from = e.sources.find(t.token);
+  const auto from = e.sources.find(t.nth);
   Json j;
   j["token"] = t.token;
   j["kind"] = kKindNames[static_cast<std::size_t>(t.what.kind)];
@@ -191,15 +191,15 @@ void print(const Explained& e, const ExplainCommand& o, const Config& config) {
                        : "");
   RtlLines rtl_lines(e.rtl, o.changes);
   for (const PixelTouch& t : h.touches) {
-    rtl_lines.before(t.token);
+    rtl_lines.before(t.nth);
     fmt::print("{:>8}  {}\n", t.token, t.text);
-    const auto from = e.sources.find(t.token);
+    const auto from = e.sources.find(t.nth);
     if (from != e.sources.end()) fmt::print("            from {}\n", from->second.text());
     fmt::print("            {}\n", t.effect);
     if (t.what.kind == Kind::TREE)
       for (const std::string& line : describe_tree(config, h)) fmt::print("            {}\n", line);
     if (!(t.before == t.after)) fmt::print("            now {}\n", describe(config, t.after));
-    rtl_lines.at(t.token);
+    rtl_lines.at(t.nth);
   }
   fmt::print("            {}\n", h.color_text);
   rtl_lines.before(std::numeric_limits<std::uint32_t>::max());

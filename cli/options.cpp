@@ -205,8 +205,9 @@ void option_front_end(CLI::App& command, Options& options) {
               "who makes spans of polygons, default host: rtl sends frames at the polygon level, and the "
               "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
               kUsualActive))
+      ->option_text("host|rtl")
       ->check(CLI::IsMember({"host", "rtl"}))
-      ->type_name("host|rtl");
+      ->type_name("WHO");
 }
 
 void option_threads(CLI::App& command, Options& options) {

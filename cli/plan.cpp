@@ -213,10 +213,15 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
         "# {:g} MHz is what the slowest core placed on {} reached, {}; others are faster (docs/timing.md)\n",
         options.clock->mhz, o.device, device_clock(o.device).core);
   text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
-  if (plan.polygon_words > 0)
-    text += fmt::format("# at the polygon level the frames take {:.1f} times fewer words, {}\n",
-                        static_cast<double>(plan.cost.words) / static_cast<double>(plan.polygon_words),
-                        counted(plan.polygon_words, "word"));
+  if (plan.polygon_words > 0) {
+    text += "# that is with spans from the host: neither clocks nor cells of the front end are in it\n";
+    text += plan.polygon_words < plan.cost.words
+                ? fmt::format("# at the polygon level the frames take {:.1f} times fewer words, {}\n",
+                              static_cast<double>(plan.cost.words) / static_cast<double>(plan.polygon_words),
+                              counted(plan.polygon_words, "word"))
+                : fmt::format("# at the polygon level the frames take no fewer words: {}, not {}\n",
+                              counted(plan.polygon_words, "word"), plan.cost.words);
+  }
   text += least_text(plan, o.plan.prefer);
   for (const PlanCandidate& c : plan.others)
     text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.config, c.cost));

@@ -174,8 +174,8 @@ void RunReport::tell_pixels(report::Page& page, const std::optional<cosim::Diver
     told.frame = frame;
     told.history = explain_pixel(config, words, x, y);
     if (provenance)
-      for (const auto& [token, source] : provenance->of_history(config, words, told.history))
-        told.from[token] = source.text();
+      for (const auto& [nth, source] : provenance->of_history(config, words, told.history))
+        told.from[nth] = source.text();
     try {
       if (watch) told.rtl = cosim::watch_pixel(from, frame, feed, config, options, x, y);
     } catch (const Error& e) {
@@ -203,6 +203,7 @@ std::string RunReport::write(TempFiles& files, const std::string& folder, const 
       page.rtl_options +=
           fmt::format("{}{} {}", page.rtl_options.empty() ? "" : " ", name, quoted(o->results().back()));
   page.explain_rtl = (page.rtl_options.empty() ? "" : " " + page.rtl_options) + " --rtl";
+  page.polygons = source_.level() == Level::polygons;
   std::optional<report::TokenStore> wanted;
   if (run.first_difference && run.first_difference->frame != cosim::kBehindFrames) {
     const std::set<int> bands = bands_that_differ(run);

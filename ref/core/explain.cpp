@@ -29,12 +29,14 @@ class History : public CoreObserver {
 
   void before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> words,
               const LineView& line) override {
+    ++nth_;
     if (t.kind == Kind::SHADE) shade_ = t.shade;
     // An EOL that was accepted counts as a line that has ended.
     here_ = (t.kind == Kind::EOL ? t.y : line.y()) == y_ && x_ < line.width() && touches(t);
     if (!here_) return;
     touch_ = {};
     touch_.token = index;
+    touch_.nth = nth_;
     touch_.what = t;
     touch_.made = !came_.empty() && words.data() != came_.data();
     touch_.text = to_string(config_, t);
@@ -189,6 +191,7 @@ class History : public CoreObserver {
   int x_;
   int y_;
   PixelHistory* history_;
+  std::uint32_t nth_ = 0;
   std::uint32_t shade_ = 0;
   bool here_ = false;
   std::span<const std::uint32_t> came_;  // at the polygon level the words of the stream's token

@@ -12,19 +12,19 @@
 namespace kage {
 
 /// What the clocks of a frame are counted under.
-enum class Phase : std::uint8_t { state, opaque, volumes, volume_ends, samples, translucent, line_out };
-inline constexpr std::size_t kPhases = 7;
+enum class Phase : std::uint8_t { state, polygons, opaque, volumes, volume_ends, samples, translucent, line_out };
+inline constexpr std::size_t kPhases = 8;
 
 inline constexpr std::array<std::string_view, kPhases> kPhaseNames{
-    "state", "opaque", "volumes", "ends of volumes", "light samples", "translucent", "line out"};
+    "state", "polygons", "opaque", "volumes", "ends of volumes", "light samples", "translucent", "line out"};
 
 /// What belongs to each: "SP, NC, IF".
 inline constexpr std::array<std::string_view, kPhases> kPhaseTokens{
-    "SHADE, TABLE, FACE, SEG, RESOLVE, END, GRADIENT, POLYGON, EDGE, AT", "TREE, OP", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
+    "SHADE, TABLE, FACE, SEG, RESOLVE, END", "GRADIENT, POLYGON, EDGE, AT", "TREE, OP", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
 
 /// By kind; what is no kind counts as state.
 inline constexpr std::array<Phase, kKinds> kPhaseOfKind{
-    Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::opaque, Phase::opaque, Phase::volumes, Phase::volumes, Phase::volumes, Phase::volume_ends, Phase::samples, Phase::state, Phase::translucent, Phase::line_out, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state};
+    Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::opaque, Phase::opaque, Phase::volumes, Phase::volumes, Phase::volumes, Phase::volume_ends, Phase::samples, Phase::state, Phase::translucent, Phase::line_out, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::state, Phase::polygons, Phase::polygons, Phase::polygons, Phase::polygons};
 constexpr Phase phase_of(Kind kind) { return kPhaseOfKind[static_cast<std::size_t>(kind)]; }
 
 }  // namespace kage

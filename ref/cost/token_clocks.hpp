@@ -50,6 +50,8 @@ class PhaseCounter {
     had_tree_ = tree_here_ = false;
   }
   void token(const Token& token);
+  /// One that stays in the front end: the core behind it has no clocks of it.
+  void polygon_token() { ++sums_.of[static_cast<std::size_t>(Phase::polygons)].tokens; }
 
   [[nodiscard]] const PhaseSums& sums() const { return sums_; }
 

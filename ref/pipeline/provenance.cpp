@@ -5,6 +5,7 @@
 
 #include "contract/kinds.hpp"
 #include "kage/stream.hpp"
+#include "polygon/span_tokens.hpp"
 
 namespace kage {
 
@@ -68,28 +69,37 @@ TokenSource Provenance::of_polyhedron(std::uint32_t index) const {
 std::map<std::uint32_t, TokenSource> Provenance::of_tokens(const Config& config, std::span<const std::uint32_t> words,
                                                            const std::set<std::uint32_t>& wanted) const {
   std::map<std::uint32_t, TokenSource> all;
-  const Layout layout(config);
-  TokenWalk walk(layout, words);
+  std::uint32_t nth = 0;
   std::size_t opaque = 0;
   std::size_t shadow = 0;
   std::size_t translucent = 0;
-  for (std::uint32_t token = 1; !walk.peek().empty(); ++token) {
-    const auto kind = kind_of(walk.next()[0], walk.level());
-    const bool is_wanted = wanted.count(token) != 0;
+  const auto count = [&](Kind kind) {
+    const bool is_wanted = wanted.count(++nth) != 0;
     switch (kind) {
       case Kind::OP:
-        if (is_wanted) all[token] = of_face(origins_.opaque[opaque].polygon);
+        if (is_wanted) all[nth] = of_face(origins_.opaque[opaque].polygon);
         ++opaque;
         break;
       case Kind::TP:
-        if (is_wanted) all[token] = of_face(origins_.translucent[translucent].polygon);
+        if (is_wanted) all[nth] = of_face(origins_.translucent[translucent].polygon);
         ++translucent;
         break;
       default:
         if (!info_of(kind).volume) break;
-        if (is_wanted) all[token] = of_volume(origins_.shadow[shadow], kind);
+        if (is_wanted) all[nth] = of_volume(origins_.shadow[shadow], kind);
         ++shadow;
     }
+  };
+  // Origins are those of spans, whoever makes them.
+  const Layout layout(config);
+  TokenWalk walk(layout, words);
+  SpanTokens spans(config);
+  spans.start(FrameHeader::read(words));
+  Token t;
+  while (!walk.peek().empty()) {
+    decode(config, layout, walk.next(), t, walk.level());
+    const ErrorCode error = spans.add(t, [&count](const Token& span, bool /*made*/) { count(span.kind); });
+    if (error != ErrorCode::NONE) break;
   }
   return all;
 }
@@ -97,10 +107,10 @@ std::map<std::uint32_t, TokenSource> Provenance::of_tokens(const Config& config,
 std::map<std::uint32_t, TokenSource> Provenance::of_history(const Config& config, std::span<const std::uint32_t> words,
                                                             const PixelHistory& history) const {
   std::set<std::uint32_t> wanted;
-  for (const PixelTouch& t : history.touches) wanted.insert(t.token);
+  for (const PixelTouch& t : history.touches) wanted.insert(t.nth);
   auto all = of_tokens(config, words, wanted);
   for (const PixelTouch& t : history.touches)
-    if (t.what.kind == Kind::TREE && t.polyhedron) all[t.token] = of_polyhedron(*t.polyhedron);
+    if (t.what.kind == Kind::TREE && t.polyhedron) all[t.nth] = of_polyhedron(*t.polyhedron);
   return all;
 }
 

@@ -227,6 +227,7 @@ FrontEndDemand front_end_demand_of(std::span<const PlannedScene> scenes, Config 
       frames.frame(
           i, [](std::span<const std::uint32_t>) {}, parts);
       demand.active.raise(parts.polygons.active, {.scene = static_cast<int>(s), .frame = i, .line = -1});
+      demand.left += parts.polygons.of(PolygonWay::active).polygons;
       demand.words += parts.polygons.words;
     }
   }

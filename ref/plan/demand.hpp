@@ -69,6 +69,7 @@ struct UnitDemand {
 /// What a front end must have for all polygons that can go as such.
 struct FrontEndDemand {
   Most active;              ///< polygons at once on a line
+  std::uint64_t left = 0;   ///< those for which no front end has room
   std::uint64_t words = 0;  ///< of all frames
 };
 

@@ -79,14 +79,17 @@ class Planner {
   void add_front_end() {
     const plan::FrontEndDemand demand = plan::front_end_demand_of(scenes_, out_.config, [this] { step(); });
     out_.polygon_words = demand.words;
-    const int active = std::max(1, static_cast<int>(demand.active.value));
-    out_.config.active = std::min(active, kGreatest.active);
+    const int most = static_cast<int>(demand.active.value);
+    out_.config.active = std::max(1, most);
     for (PlanReason& r : out_.reasons) {
       if (r.parameter != "ACTIVE") continue;
       r.value = out_.config.active;
-      r.text = fmt::format("{} polygons at once in {}; with one less, some go as spans", active,
-                           plan::text_of(scenes_, demand.active.at));
-      if (active >= kGreatest.active) r.text = fmt::format("the most that a front end keeps; others go as spans");
+      r.text = demand.left > 0
+                   ? fmt::format("the most that a front end keeps; for {} it has no room, and they go as spans",
+                                 counted(demand.left, "polygon"))
+               : most > 0 ? fmt::format("{} at once in {}; with one less, some go as spans", counted(most, "polygon"),
+                                        plan::text_of(scenes_, demand.active.at))
+                          : "no polygon goes to the front end, and 0 is a core without one";
     }
   }
 

@@ -18,7 +18,7 @@ struct Mismatch {
   std::uint64_t clock = 0;
 
   /// The order in which a token passes the stages.
-  [[nodiscard]] auto order() const { return std::tuple(expected.token, expected.line, expected.step, expected.x); }
+  [[nodiscard]] auto order() const { return std::tuple(expected.nth, expected.line, expected.step, expected.x); }
 };
 
 /// In place of a value's index: the event's unit, of Stage::exit whether the pixel is the last of its line.

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kFirstLine = "kage verdict 1";
+constexpr std::string_view kFirstLine = "kage verdict 2";
 
 constexpr std::size_t kKeyDigits = 64;
 

@@ -19,6 +19,7 @@ namespace kage {
 /// What a token did to the pixel.
 struct PixelTouch {
   std::uint32_t token = 0;  ///< index in its frame; the header is 0
+  std::uint32_t nth = 0;    ///< the same among the tokens behind the front end: those that it makes count
   Token what;               ///< the token
   bool made = false;        ///< by the front end, of the stream's token of that index
   std::string text;         ///< as `kage info --tokens` prints it; of one that is made with ", made by the front end"

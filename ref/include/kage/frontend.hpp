@@ -94,8 +94,11 @@ struct PolygonReport {
 
   /// @return all polygons
   [[nodiscard]] Way all() const;
+  /// @param way any
+  /// @return polygons that go this way
+  [[nodiscard]] const Way& of(PolygonWay way) const { return ways[static_cast<std::size_t>(way)]; }
   /// @return those that the front end makes spans of
-  [[nodiscard]] const Way& made() const { return ways[static_cast<std::size_t>(PolygonWay::polygon)]; }
+  [[nodiscard]] const Way& made() const { return of(PolygonWay::polygon); }
 
   /// Adds those of another frame.
   /// @param other its report

@@ -50,7 +50,8 @@ class Provenance {
   /// Tells where tokens come from.
   /// @param config that of the words
   /// @param words the whole frame
-  /// @param wanted indices in the frame
+  /// @param wanted which: their numbers behind the front end, as PixelTouch::nth; at the span level indices in the
+  /// frame
   /// @return sources of those among `wanted` that come of a part of the scene: spans, and ends of volumes
   [[nodiscard]] std::map<std::uint32_t, TokenSource> of_tokens(const Config& config,
                                                                std::span<const std::uint32_t> words,
@@ -60,7 +61,7 @@ class Provenance {
   /// @param config that of the words
   /// @param words the whole frame
   /// @param history of a pixel of the frame
-  /// @return sources by the tokens' indices in the frame
+  /// @return sources by PixelTouch::nth
   [[nodiscard]] std::map<std::uint32_t, TokenSource> of_history(const Config& config,
                                                                 std::span<const std::uint32_t> words,
                                                                 const PixelHistory& history) const;

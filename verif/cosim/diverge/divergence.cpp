@@ -132,11 +132,12 @@ Found search(int from, int frame, const Feed& feed, const Config& config, const 
   }
 }
 
-/// The text of a frame's token: the golden core hands it out again, so that a search need not keep them all.
+/// The text of a frame's token behind the front end: the golden core hands it out again, so that a search need not keep
+/// them all.
 class TokenText : private CoreObserver {
  public:
-  TokenText(const Config& config, int frame, const Feed& feed, std::uint32_t token) : config_(config), token_(token) {
-    if (token == 0) {
+  TokenText(const Config& config, int frame, const Feed& feed, std::uint32_t nth) : config_(config), left_(nth) {
+    if (nth == 0) {
       text_ = "header";
       return;
     }
@@ -152,15 +153,21 @@ class TokenText : private CoreObserver {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
-  void before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> /*words*/,
+  void came(std::uint32_t /*index*/, const Token& /*token*/, std::span<const std::uint32_t> words) override {
+    came_ = words;
+  }
+
+  void before(std::uint32_t /*index*/, const Token& token, std::span<const std::uint32_t> words,
               const LineView& /*line*/) override {
-    if (index != token_) return;
+    if (--left_ > 0) return;
     text_ = to_string(config_, token);
+    if (!came_.empty() && words.data() != came_.data()) text_ += ", made by the front end";
     throw Enough();
   }
 
   const Config& config_;
-  std::uint32_t token_;
+  std::uint32_t left_;                   // tokens up to the one that is told
+  std::span<const std::uint32_t> came_;  // at the polygon level: what the front end makes it of
   std::string text_;
 };
 
@@ -171,6 +178,7 @@ void describe_mismatch(Divergence& d, const Found& found, const Config& config) 
   d.line = e.line;
   d.x = e.x;
   d.token = e.token;
+  d.nth = e.nth;
   MismatchText text = describe(config, m);
   d.field = std::move(text.field);
   d.expected = std::move(text.expected);
@@ -231,7 +239,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
   d.cycle = found.clock - std::min(found.clock, found.start);
   if (found.mismatch) {
     describe_mismatch(d, found, config);
-    d.token_text = TokenText(config, found.frame, feed, d.token).text();
+    d.token_text = TokenText(config, found.frame, feed, d.nth).text();
   } else if (found.unexpected) {
     describe_unexpected(d, found);
   }
@@ -261,6 +269,7 @@ std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const C
     if (!seen || e.x != x || e.line != y) return;
     RtlTouch t;
     t.token = e.token;
+    t.nth = e.nth;
     t.stage = e.stage;
     t.load = e.load;
     t.cycle = a.clock;

@@ -32,6 +32,7 @@ struct Divergence {
   std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered
   std::uint64_t clock = 0;  ///< the same, since the replay's first
   std::uint32_t token = 0;  ///< index in the frame
+  std::uint32_t nth = 0;    ///< the same behind the front end, as PixelTouch::nth
   std::string token_text;   ///< "SP [12, 40) ..."
   std::string source;       ///< the part of the scene it came from, if the caller knows it: find_divergence() does not
   std::string waits;        ///< of a core that hangs: who waits for whom
@@ -50,6 +51,7 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
 /// What the RTL did to a pixel, where the golden model's history has the same.
 struct RtlTouch {
   std::uint32_t token = 0;
+  std::uint32_t nth = 0;    ///< as PixelTouch::nth
   Stage stage{};            ///< pixel, exit or out
   bool load = false;        ///< its colour came back from the way out
   std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered

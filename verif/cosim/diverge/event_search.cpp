@@ -179,8 +179,8 @@ void EventSearch::take_error(std::deque<ExpectedEvent>& q, const kage_rtl_event&
 void EventSearch::offer(const Mismatch& m) {
   seen_ = std::min(seen_, m.clock);
   // After an error that should not be, nothing more comes of its token.
-  if (first_ && raised(*first_) && !m.actual && m.expected.token == first_->expected.token) return;
-  if (first_ && raised(m) && !first_->actual && m.expected.token == first_->expected.token) {
+  if (first_ && raised(*first_) && !m.actual && m.expected.nth == first_->expected.nth) return;
+  if (first_ && raised(m) && !first_->actual && m.expected.nth == first_->expected.nth) {
     first_ = m;
     return;
   }
@@ -192,9 +192,9 @@ void EventSearch::offer(const Mismatch& m) {
 bool EventSearch::unexpected_leads() const {
   if (!unexpected_ || !first_) return false;
   if (!tokens_watched_) return unexpected_->clock < first_->clock;  // of which token it comes is not known
-  const std::uint32_t token = first_->expected.token;
-  return token > unexpected_token_ ||
-         (token == unexpected_token_ && static_cast<Stage>(unexpected_->stage) == Stage::token);
+  const std::uint32_t nth = first_->expected.nth;
+  return nth > unexpected_token_ ||
+         (nth == unexpected_token_ && static_cast<Stage>(unexpected_->stage) == Stage::token);
 }
 
 // What comes behind a difference at its place says nothing more.

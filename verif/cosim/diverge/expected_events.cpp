@@ -32,6 +32,7 @@ ExpectedEvent ExpectedEvents::event(Stage stage, int step) const {
   e.stage = stage;
   e.line = y_;
   e.token = token_;
+  e.nth = nth_;
   e.step = step;
   return e;
 }
@@ -40,7 +41,7 @@ ExpectedEvent ExpectedEvents::no_error(int line, std::uint32_t token) {
   ExpectedEvent e;
   e.stage = Stage::error;
   e.line = line;
-  e.token = token;
+  e.token = e.nth = token;
   e.step = of_control;
   e.look_at(at::error::code);
   return e;
@@ -57,7 +58,6 @@ ExpectedEvent& ExpectedEvents::newest(Stage stage, int unit) {
 // Two words a value, the first in the lower half.
 void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool final) {
   ExpectedEvent e = event(Stage::token, of_token);
-  ++token_events_;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const std::size_t place = at::token::words + i / 2;
     e.expect(static_cast<int>(place), e.value[place] | std::uint64_t{words[i]} << (i % 2 * 32));
@@ -73,8 +73,8 @@ void ExpectedEvents::token_words(std::span<const std::uint32_t> words, bool fina
 // A token that is refused: its words may not be there, but what token_reader says of them is known.
 void ExpectedEvents::wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words) {
   ExpectedEvent e = event(Stage::token, of_token);
-  ++token_events_;
   e.token = header ? 0 : token_ + 1;
+  e.nth = header ? 0 : nth_ + 1;
   const bool cut = code == ErrorCode::LAST_EARLY;
   const bool end = !header && !words.empty() && kind_of(words[0]) == Kind::END;
   e.expect(at::token::flags, (header ? flag::header : 0) | (code == ErrorCode::KIND ? flag::lacking : 0) |
@@ -91,7 +91,7 @@ void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView
   const FrameHeader h = FrameHeader::read(words);
   height_ = h.height;
   y_ = 0;
-  token_ = token_events_ = 0;
+  token_ = nth_ = 0;
   eol_token_.clear();
   background_ = low(h.background, derived::rgb_bits(config_));
   shade_ = 0;
@@ -208,6 +208,7 @@ void ExpectedEvents::segment_event(const SegmentToken& s) {
 void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const std::uint32_t> words,
                             const LineView& line) {
   token_ = index;
+  ++nth_;
   token_words(words, t.kind == Kind::END);
   switch (t.kind) {
     case Kind::SHADE:
@@ -307,14 +308,15 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
 void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint32_t> words, const LineView& /*line*/) {
   failed_ = true;
   if (status.width == 0) {  // nothing of the frame before is left
-    token_ = token_events_ = 0;
+    token_ = nth_ = 0;
     y_ = 0;
   }
   if (status.error != ErrorCode::LAST_LATE) wrong_token(status.error, status.width == 0, words);
   ExpectedEvent e = event(Stage::error, of_control);
   // Where it shows: the token that is to blame may have come before.
-  e.token = status.width == 0 ? 0 : status.error == ErrorCode::LAST_LATE ? token_ : token_ + 1;
-  e.nth = failed_at_ = token_events_ - 1;
+  const std::uint32_t on = status.width == 0 || status.error == ErrorCode::LAST_LATE ? 0 : 1;
+  e.token = token_ + on;
+  e.nth = failed_at_ = nth_ + on;
   e.expect(at::error::code, static_cast<std::uint64_t>(status.error));
   e.expect(at::error::frame, status.frame);
   e.expect(at::error::line, status.line);
@@ -323,6 +325,7 @@ void ExpectedEvents::failed(const FrameStatus& status, std::span<const std::uint
   put(e);
   if (status.width == 0) return;
   token_ = e.token;
+  nth_ = e.nth;
   // The line at hand and all others leave as background.
   while (y_ < height_) end_line(nullptr);
 }

@@ -8,6 +8,7 @@
 #include <deque>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "contract/derived.hpp"
@@ -23,11 +24,11 @@ struct ExpectedEvent {
   int unit = 0;             ///< an expansion unit's number, a pixel's x; of a pixel that leaves, 1: its line's last
   int line = 0;             ///< lines that had ended
   std::uint32_t token = 0;  ///< index of the token it comes of
-  std::uint32_t nth =
-      0;              ///< of an error: the token that shows it, as frame_control counts them; a front end makes some
-  int step = 0;       ///< order among the events of a token: those of a later step follow from earlier ones
-  int x = -1;         ///< the pixel, where it is of one
-  bool load = false;  ///< a command, or what it does, that brings a colour back
+  /// The same as frame_control counts, for which a front end makes some; of an error the token that shows it.
+  std::uint32_t nth = 0;
+  int step = 0;             ///< order among the events of a token: those of a later step follow from earlier ones
+  int x = -1;               ///< the pixel, where it is of one
+  bool load = false;        ///< a command, or what it does, that brings a colour back
   std::uint32_t cares = 0;  ///< bit i: value i matters
   std::array<std::uint64_t, KAGE_RTL_EVENT_VALUES> value{};
   /// Value i is to be this, or matters as it is, or does not matter.
@@ -152,11 +153,11 @@ class ExpectedEvents : public CoreObserver {
   // Of the frame:
   bool failed_ = false;
   std::uint32_t failed_at_ = 0;
-  std::uint32_t token_events_ = 0;  // of the frame so far, the header's among them
   int width_ = 0;
   int height_ = 0;
   int y_ = 0;                // lines that have ended
   std::uint32_t token_ = 0;  // the one at hand
+  std::uint32_t nth_ = 0;    // likewise, as frame_control counts
   std::uint64_t background_ = 0;
   std::uint64_t shade_ = 0;
   std::vector<int> given_;  // pixels of the line that a unit is being given
@@ -164,9 +165,9 @@ class ExpectedEvents : public CoreObserver {
   // Of the line:
   bool resolved_ = false;
   bool painted_ = false;
-  std::uint64_t bias_ = 0;                // of the last that had one
-  std::vector<Leaving> before_resolve_;   // what was there when RESOLVE came
-  std::vector<std::uint32_t> eol_token_;  // of each line
+  std::uint64_t bias_ = 0;                                          // of the last that had one
+  std::vector<Leaving> before_resolve_;                             // what was there when RESOLVE came
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> eol_token_;  // of each line, and its nth
 };
 
 }  // namespace kage::cosim

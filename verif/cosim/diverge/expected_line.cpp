@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The events of a line as a whole: it is painted, and it leaves.
+#include <tuple>
+
 #include "contract/derived.hpp"
 #include "cosim/diverge/expected_events.hpp"
 #include "number/packed_color.hpp"
@@ -138,7 +140,7 @@ void ExpectedEvents::end_line(const LineView* line) {
     leave({}, true);
   else
     leave(resolved_ && !painted_ ? before_resolve_ : all_leaving(*line), false);
-  eol_token_.push_back(token_);
+  eol_token_.emplace_back(token_, nth_);
   ++y_;
   resolved_ = painted_ = false;
   bias_ = 0;
@@ -149,7 +151,7 @@ void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
   for (int x = 0; x < width_; ++x) {
     ExpectedEvent e = event(Stage::out, of_out);
     e.line = y;
-    e.token = eol_token_[static_cast<std::size_t>(y)];
+    std::tie(e.token, e.nth) = eol_token_[static_cast<std::size_t>(y)];
     e.x = x;
     std::array<std::uint8_t, 3> color{};
     std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(x) * channels, channels, color.begin());

@@ -130,15 +130,16 @@ Json told_of(const Page& page) {
   for (const ToldPixel& p : page.told) {
     Json touches = Json::array();
     for (const PixelTouch& t : p.history.touches) {
-      Json j{{"token", t.token}, {"text", t.text}, {"effect", t.effect}};
+      Json j{{"token", t.token}, {"nth", t.nth}, {"text", t.text}, {"effect", t.effect}};
       if (t.what.kind == Kind::TREE) j["tree"] = describe_tree(page.record.config, p.history);
-      if (const auto from = p.from.find(t.token); from != p.from.end()) j["from"] = from->second;
+      if (const auto from = p.from.find(t.nth); from != p.from.end()) j["from"] = from->second;
       if (!(t.before == t.after)) j["now"] = describe(page.record.config, t.after);
       touches.push_back(std::move(j));
     }
     Json rtl = Json::array();
     for (const cosim::RtlTouch& t : p.rtl)
       rtl.push_back({{"token", t.token},
+                     {"nth", t.nth},
                      {"stage", cosim::describe(t.stage)},
                      {"state", t.stage == cosim::Stage::pixel},
                      {"load", t.load},
@@ -160,9 +161,9 @@ Json told_of(const Page& page) {
 
 std::string headline(const Page& page) {
   const cosim::Report& r = *page.run;
-  return fmt::format("{}: {}{}, {}x{}, {} compared{}", r.same ? "same" : "different", counted(r.frames, "frame"),
-                     cosim::taken_text(r.taken.size()), r.width, r.height, counted(r.pixels_compared, "pixel"),
-                     page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
+  return fmt::format("{}: {}{}{}, {}x{}, {} compared{}", r.same ? "same" : "different", counted(r.frames, "frame"),
+                     page.polygons ? " at the polygon level" : "", cosim::taken_text(r.taken.size()), r.width, r.height,
+                     counted(r.pixels_compared, "pixel"), page.rtl_options.empty() ? "" : ", with " + page.rtl_options);
 }
 
 /// The run's record, without what is listed by frame, and what this page has besides.

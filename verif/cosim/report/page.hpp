@@ -28,7 +28,7 @@ struct ToldPixel {
   int frame = 0;
   PixelHistory history;
   std::vector<cosim::RtlTouch> rtl;
-  std::map<std::uint32_t, std::string> from;  ///< by token: which part of the scene it is of
+  std::map<std::uint32_t, std::string> from;  ///< by PixelTouch::nth: which part of the scene it is of
 };
 
 /// What the page tells. All text may be anything: it is escaped.
@@ -41,6 +41,7 @@ struct Page {
   std::string explain;      ///< that of kage explain, without --frame and --pixel
   std::string explain_rtl;  ///< what it ends with where the RTL is to be told too
   std::string rtl_options;  ///< --fault, --idle and --backpressure, as they were given; or ""
+  bool polygons = false;    ///< the frames are at the polygon level
   const TokenStore* tokens = nullptr;
   const TokenStore* wanted = nullptr;  ///< of the different frame, to be there before all others; or nullptr
 };

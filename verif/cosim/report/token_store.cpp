@@ -95,6 +95,7 @@ void TokenStore::token(std::span<const std::uint32_t> words) {
   const std::uint32_t index = frames_.back().tokens++;
   const ErrorCode error =
       spans_.add(t_, [&](const Token& t, bool made) { span_token(index, t, made || t.kind != t_.kind); });
+  if (phase_of(t_.kind) == Phase::polygons) counter_.polygon_token();
   if (t_.kind == Kind::SEG) segment(index, words);
   if (t_.kind == Kind::TREE) tree();
   broken_ = t_.kind == Kind::END || error != ErrorCode::NONE;

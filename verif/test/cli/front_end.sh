@@ -20,7 +20,31 @@ expect 1 env KAGE_DATA_DIR="$PWD/data" "$kage" cosim courtyard --front-end rtl -
 grep -q 'the pixels are the same, and a stage is not: token to frame control$' stdout || fail "no stage: $(cat stdout)"
 grep -q 'first divergence: .*rtl/front_end.sv), dz: expected 0, got ' stdout || fail "no divergence: $(cat stdout)"
 json d.json 'not j["same"] and j["first_difference"]["field"] == "stage"'
+# What the RTL does stands below the span that it does it with, also where several are made of one token.
+for pixel in 40,20 40,40 20,45 60,50; do
+  expect 0 "$kage" explain courtyard --front-end rtl --config front.yaml --size 80x60 --pixel $pixel --rtl
+  cat stdout
+done >told
+python3 - told <<'PY' || fail "what the RTL did stands elsewhere: $(cat told)"
+import re, sys
+shared, below, last = 0, None, ""
+for line in [*open(sys.argv[1]), "       0  END"]:
+    token = re.match(r" *(\d+)  ([A-Z]+)\b", line)
+    if token:
+        # A span, or the end of a volume, changes the state of its pixels once; IF and RESOLVE none in this configuration.
+        assert below is None or below[1] == (below[0] in ("OP", "SP", "NC", "EV")), (below, token[0])
+        shared += token[1] == last
+        below, last = [token[2], 0], token[1]
+    elif "state of a pixel" in line:
+        below[1] += 1
+    elif line.startswith("frame "):
+        below, last = None, ""
+assert shared > 3, shared
+PY
 # The fields of the first stage that differs name the front end.
 expect 1 "$kage" cosim courtyard --front-end rtl --config front.yaml --size 80x60 --frames 1 --out wrong --fault front_end_edge
 grep -q 'first divergence: .*rtl/front_end.sv' stdout || fail "no divergence of front_end: $(cat stdout)"
+# Of several spans that the front end makes of one token that one is told which has the field, and what it is of.
+expect 1 "$kage" cosim depths --front-end rtl --config front.yaml --size 80x60 --frames 1 --out depths --no-report --fault front_end_edge --json c.json
+json c.json '(d:=j["first_difference"]["divergence"])["field"]=="xr" and ", %s)" % d["expected"] in d["token_text"] and d["token_text"].endswith(", made by the front end") and "lower crest" in d["source"]'
 done_testing

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """polygons.py SOURCE: writes polygons.kage, a frame at the polygon level made by hand, spans.kage, the spans that it comes to,
-other.kage, the same but for one depth, and broken.kage, where an edge has no polygon (PORT). The words are read back, and the
-golden core draws the first two alike."""
+and broken.kage, where an edge has no polygon (PORT). Of the first there are variants: other.kage, edge.kage and place.kage with
+one depth, one edge and one place of another value, fewer.kage without a polygon, smaller.kage of a core that keeps fewer polygons,
+two.kage with two frames of which the second is edge.kage's, same.kage with the first twice, mixed.kage with its second frame as spans. The words are read back,
+and the golden core draws the first two alike."""
 
 import sys
 
@@ -15,8 +17,8 @@ ONE = 1 << 24  # an LSB of a plane
 codec = Codec(Config(ACTIVE=8))
 
 
-def frame(version, tokens):
-    words = codec.write_header(version=version, width=WIDTH, height=HEIGHT, background=0, frame=0)
+def frame(version, tokens, number=0):
+    words = codec.write_header(version=version, width=WIDTH, height=HEIGHT, background=0, frame=number)
     for token in tokens:
         words += codec.pack(token)
     if list(codec.tokens(words)) != [{**zeros(t), **t} for t in tokens]:
@@ -72,12 +74,12 @@ def eol(y):
     return {"kind": "EOL", "y": y}
 
 
-def at_polygons(value=1000):
+def at_polygons(value=1000, right=10, volume=5, shadow=True):
     return [
         {"kind": "SHADE", "shade": 128},
         eol(0),
-        *polygon({"layer": 0}, {"class": 1, "color": [200, 100, 50]}, value, 2, 10, 4),
-        *polygon({"layer": 1, "volume": 5, "rank": 1}, {"w": 1}, 500, 4, 8, 3),
+        *polygon({"layer": 0}, {"class": 1, "color": [200, 100, 50]}, value, 2, right, 4),
+        *(polygon({"layer": 1, "volume": volume, "rank": 1}, {"w": 1}, 500, 4, 8, 3) if shadow else []),
         eol(1),
         {"kind": "AT", "layer": 1, "volume": 6},
         {"kind": "NC", "xl": 0, "xr": WIDTH, "w": 1},
@@ -96,19 +98,26 @@ of_spans = [
 ]
 
 
-def write(name, words, tag="FRAM"):
-    text = "".join(f"{key}: {value}\n" for key, value in vars(codec.config).items())
+def write(name, *frames, tag="FRAM", **other):
+    text = "".join(f"{key}: {value}\n" for key, value in {**vars(codec.config), **other}.items())
     with open(name, "wb") as file:
-        file.write(write_sections([("CONF", text.encode()), (tag, payload_of(words))]))
+        file.write(write_sections([("CONF", text.encode()), *((tag, payload_of(words)) for words in frames)]))
 
 
 polygons, spans = frame(POLYGON_VERSION, at_polygons()), frame(1, of_spans)
 write("polygons.kage", polygons)
 write("spans.kage", spans)
 write("other.kage", frame(POLYGON_VERSION, at_polygons(1001)))
+write("edge.kage", frame(POLYGON_VERSION, at_polygons(right=11)))
+write("place.kage", frame(POLYGON_VERSION, at_polygons(volume=4)))
+write("fewer.kage", frame(POLYGON_VERSION, at_polygons(shadow=False)))
+write("smaller.kage", polygons, ACTIVE=2)
+write("two.kage", polygons, frame(POLYGON_VERSION, at_polygons(right=11), 1))
+write("same.kage", polygons, frame(POLYGON_VERSION, at_polygons(), 1))
+write("mixed.kage", polygons, frame(1, of_spans, 1))
 broken = at_polygons()
 broken.insert(2, {"kind": "EDGE"})
-write("broken.kage", frame(POLYGON_VERSION, broken), "PORT")
+write("broken.kage", frame(POLYGON_VERSION, broken), tag="PORT")
 
 golden = Golden(codec.config)
 drawn = golden.frame(polygons)

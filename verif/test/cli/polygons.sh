@@ -37,6 +37,71 @@ json diff.json 'not j["same"] and j["expanded_frames"] == 0 and j["different_tok
 # What the front end refuses has no spans to be compared by.
 expect 1 "$kage" diff broken.kage spans.kage
 grep -q 'field magic_version' stdout || fail "diff: $(cat stdout)"
+expect 1 "$kage" diff polygons.kage broken.kage
+grep -q 'first difference: frame 0, line 1, token 3, field kind' stdout || fail "diff: $(cat stdout)"
+
+# Each token that polygons are made of, by its place in both streams and with the words of kage info.
+expect 0 "$kage" diff polygons.kage polygons.kage --json diff.json
+json diff.json 'j["same"] and j["different_tokens"] == 0 and j["expanded_frames"] == 0'
+# differs OTHER TOKEN FIELD TOKENS: at this token of polygons.kage.
+differs() {
+  local side shown
+  expect 1 "$kage" diff polygons.kage "$1.kage" --json diff.json
+  cp stdout said
+  grep -q "^first difference: frame 0, line 1, token $2, field $3\$" said || fail "diff with $1: $(cat said)"
+  json diff.json "j['different_lines'] == 1 and j['different_tokens'] == $4 and j['expanded_frames'] == 0"
+  for side in A:polygons "B:$1"; do
+    expect 0 "$kage" info "${side#*:}.kage" --tokens 0
+    shown=$(awk -v n="$2" '$1 == n { $1 = ""; print substr($0, 2) }' stdout)
+    grep -qxF "  ${side%%:*}: $shown" said || fail "token $2 of ${side#*:} is '$shown', not as said: $(cat said)"
+  done
+}
+differs edge 6 top_x 1
+differs place 7 volume 1
+differs fewer 7 kind 4
+# Another place of a volume alone changes no span.
+expect 0 "$kage" diff spans.kage place.kage
+expect 1 "$kage" diff spans.kage edge.kage
+grep -q '^first difference: frame 0, line 1, token 3, field xr$' stdout || fail "diff: $(cat stdout)"
+# How many polygons the core keeps is a difference of two streams of polygons, and none of a token.
+expect 1 "$kage" diff polygons.kage smaller.kage --json diff.json
+grep -qx 'configuration: ACTIVE is 8 in A, 2 in B' stdout || fail "diff: $(cat stdout)"
+json diff.json 'j["different_frames"] == 0 and j["different_tokens"] == 0 and j["first"] is None'
+expect 0 "$kage" diff spans.kage smaller.kage
+
+# Frames of both levels in one stream.
+expect 0 "$kage" info mixed.kage --tokens 1 --json info.json
+json info.json '[j[k] for k in ("frames", "polygon_frames", "made_spans", "active", "spans")] == [2, 1, 5, 2, 10]'
+grep -qxF '       0  header: 16x6, background 0,0,0, frame number 1' stdout && ! grep -q '^ *[0-9]*  POLYGON' stdout ||
+  fail "frame 1 is not of spans: $(cat stdout)"
+expect 0 "$kage" info mixed.kage --tokens 0
+grep -qxF '       0  header: 16x6, background 0,0,0, frame number 0, at the polygon level' stdout || fail "frame 0: $(cat stdout)"
+expect 0 "$kage" diff mixed.kage same.kage --json diff.json --junit diff.xml
+json diff.json 'j["same"] and j["expanded_frames"] == 1'
+grep -q 'tests="4" failures="0"' diff.xml || fail "JUnit: $(cat diff.xml)"
+expect 1 "$kage" diff mixed.kage two.kage --json diff.json --junit diff.xml
+json diff.json 'j["expanded_frames"] == 1 and [j["first"][k] for k in ("frame", "line", "token", "field")] == [1, 1, 3, "xr"]'
+grep -A1 'name="frame 1"' diff.xml | grep -q '<failure' && grep -q 'failures="1"' diff.xml || fail "JUnit: $(cat diff.xml)"
+expect 1 "$kage" diff same.kage two.kage --json diff.json
+json diff.json 'j["expanded_frames"] == 0 and [j["first"][k] for k in ("frame", "line", "token", "field")] == [1, 1, 6, "top_x"]'
+expect 0 "$kage" explain two.kage --frame 1 --pixel 10,2
+grep -qxF '      13  OP [2, 11) z 1010.5 dz 2 color 200,100,50 lit, made by the front end' stdout || fail "frame 1: $(cat stdout)"
+expect 0 "$kage" explain two.kage --frame 0 --pixel 10,2
+! grep -q ' OP ' stdout || fail "frame 0 has the span of frame 1: $(cat stdout)"
+
+# The core behind the front end has the clocks that it has with spans.
+clocks=()
+for level in polygons spans; do
+  expect 0 "$kage" info $level.kage --clocks
+  clocks+=("$(grep '^clocks of ' stdout)")
+done
+[ -n "${clocks[0]}" ] && [ "${clocks[0]}" = "${clocks[1]}" ] || fail "clocks: ${clocks[*]}"
+
+# A frame that is not sound, as the port may get it: nothing of it is counted, and an error is background.
+expect 0 "$kage" info broken.kage --json info.json
+json info.json '[j[k] for k in ("polygon_frames", "made_spans", "active", "spans")] == [1, 0, 0, 0] and j["unchecked_frames"] == 1'
+expect 0 "$kage" explain broken.kage --pixel 5,2 --json explain.json
+json explain.json 'j["touches"] == [] and j["color_text"] == "background: the frame has an error on this line or before"'
 
 expect 0 "$kage" explain polygons.kage --pixel 5,2 --json explain.json
 for line in '      13  OP [2, 10) z 1010.5 dz 2 color 200,100,50 lit, made by the front end' \
@@ -47,6 +112,44 @@ done
 json explain.json 'all(t["made"] for t in j["touches"] if t["kind"] in ("OP", "SP", "EV", "IF", "RESOLVE"))'
 expect 0 "$kage" explain spans.kage --pixel 5,2 --json explain.json
 json explain.json 'len(j["touches"]) > 3 and not any(t["made"] for t in j["touches"])'
+
+# Of what is made only what changed something.
+expect 0 "$kage" explain polygons.kage --pixel 9,1 --json explain.json
+expect 0 "$kage" explain polygons.kage --pixel 9,1 --changes --json changes.json
+python3 - <<'PY' || fail "--changes does not show what changed something"
+import json
+a, b = (json.load(open(f))["touches"] for f in ("explain.json", "changes.json"))
+assert b == [t for t in a if t["before"] != t["after"] or t["kind"] == "IF"] and all(t["made"] for t in b) and 0 < len(b) < len(a), (a, b)
+PY
+
+# Of a scene a pixel has the same history at both levels, and all of it comes of the same parts of the scene: spans that the
+# front end makes, of which several have the index of one token, and those that go on as they came.
+python3 - "$kage" <<'PY' || fail "histories at the polygon level are not those of the span level"
+import json, random, subprocess, sys
+chance = random.Random(1)
+made, sent, shared, roles, bad = 0, 0, 0, set(), []
+for scene, width, height in ("courtyard", 160, 120), ("inside", 160, 120), ("glass", 96, 64), ("penumbra", 48, 36), ("polyhedra", 96, 64):
+    for _ in range(12):
+        pixel = f"{chance.randrange(width)},{chance.randrange(height)}"
+        line = [sys.argv[1], "explain", scene, "--size", f"{width}x{height}", "--pixel", pixel, "--json", "-"]
+        spans, polygons = (subprocess.run(line + more, capture_output=True, text=True) for more in ([], ["--front-end", "rtl"]))
+        if spans.returncode or polygons.returncode:
+            bad.append(f"{scene} {pixel}: exit {spans.returncode}, {polygons.returncode}")
+            continue
+        spans, polygons = (json.loads(run.stdout) for run in (spans, polygons))
+        told = [[[t["kind"], t["effect"], t["source"], t["before"], t["after"]] for t in j["touches"]] for j in (spans, polygons)]
+        if told[0] != told[1] or spans["color"] != polygons["color"]:
+            bad.append(f"{scene} {pixel}: {next(([a, b] for a, b in zip(*told) if a != b), told)}")
+        indices = [t["token"] for t in polygons["touches"]]
+        shared += len(indices) - len(set(indices))
+        for t in polygons["touches"]:
+            if t["source"] is None: continue
+            roles.add(t["source"]["role"])
+            made += t["made"]
+            sent += not t["made"]
+print(*bad[:3], sep="\n")
+assert not bad and min(made, sent, shared) > 20 and roles >= {"face", "cap", "side", "end", "section with the near plane"}, (made, sent, shared, roles)
+PY
 
 # Random frames at the level.
 echo 'ACTIVE: 6' >front.yaml

@@ -71,6 +71,8 @@ said 0 plan courtyard --size 64x48 --frames 1 --clock 50 --prefer speed
 json "$last" 'j["meets_clock"] is True and j["cost"]["worst_line_at"]["frame"] == 0'
 said 0 plan courtyard --size 64x48 --frames 1 --guarantee measured --max-wrong 5000
 json "$last" 'j["limits"]["max_wrong"] == 5000 and "measured: " in j["reasons"]["Z_BITS"]'
+said 0 plan courtyard --size 64x48 --frames 1 --front-end rtl
+json "$last" '0 < j["polygon_words"] < j["cost"]["words_per_frame"] and j["config"]["ACTIVE"] > 1'
 said 0 area tiny default --estimate
 
 # Sweeps: soft lights, and none; with the RTL, and without.

@@ -21,6 +21,8 @@ KAGE_GOLDEN=$(dirname "$kage")/../lib/libkage_golden.so
 export KAGE_GOLDEN
 expect 0 python3 "$source/verif/test/cli/polygons.py" "$source"
 files+=(polygons.kage)
+expect 0 "$kage" stream knot --config full --level polygons --size 48x32 --frames 2 --out smooth.kage
+files+=(smooth.kage)
 expect 0 python3 "$source/verif/test/cli/stream_python.py" "$kage" "$source" "${files[@]}"
-grep -qx 'AT EDGE END EOL ES EV FACE IF NC OP POLYGON RESOLVE SEG SHADE SP TABLE TP TREE' stdout || fail "kinds: $(cat stdout)"
+grep -qx 'AT EDGE END EOL ES EV FACE GRADIENT IF NC OP POLYGON RESOLVE SEG SHADE SP TABLE TP TREE' stdout || fail "kinds: $(cat stdout)"
 done_testing

@@ -43,6 +43,10 @@ def histories(b):
         "odd",
         "different",
         "meshes",
+        "polygons",
+        "polygons-inside",
+        "polygons-glass",
+        "front-end",
     ):
         b.open(f"{folder}/report.html")
         width, height, frames = b.run(

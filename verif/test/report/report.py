@@ -8,6 +8,7 @@ import sys
 
 from browser import Browser
 from different import different_run
+from front_end import front_end_run
 from histories import histories
 from joined import joined_run
 from limits import full_page, odd_name
@@ -16,7 +17,8 @@ from page import check, chromium, failures
 from same import recalled_run, same_run
 
 with Browser(chromium) as browser:
-    for part in (before_pictures, same_run, recalled_run, different_run, full_page, odd_name, joined_run, histories):
+    parts = (before_pictures, same_run, recalled_run, different_run, front_end_run, full_page, odd_name, joined_run)
+    for part in (*parts, histories):
         part(browser)
     check(not browser.errors, f"the console has errors: {browser.errors[:3]}")
     outside = [

@@ -10,6 +10,7 @@ expect 0 "$kage" cosim courtyard --out same --json same.json
 [ "$(tail -n 1 stdout)" = "report: same/report.html" ] || fail "the last line does not name the report: $(tail -n 1 stdout)"
 json same.json 'j["report"] == "same/report.html"'
 expect 1 "$kage" cosim courtyard --fault wrong_compare --out different
+expect 1 "$kage" cosim courtyard --front-end rtl --size 160x120 --frames 2 --fault front_end_edge --out front-end
 expect 0 "$kage" cosim polyhedra --config polyhedra --out full
 for run in same different full; do
   [ "$(stat -c %s $run/report.html)" -le 10000000 ] || fail "$run/report.html has $(stat -c %s $run/report.html) bytes"
@@ -46,6 +47,9 @@ scene lights three-lights --config lights --size 96x72
 scene glass glass --config glass --size 160x120
 scene polyhedra polyhedra --config polyhedra --size 160x120
 scene smooth knot --config full --size 160x120
+scene polygons courtyard --front-end rtl --size 160x120 --idle 30 --backpressure 10 --json polygons.json
+scene polygons-inside inside --front-end rtl --size 160x120
+scene polygons-glass glass --front-end rtl --size 96x64
 scene tiny courtyard --config tiny --degrade --size 150x40
 
 # Shards of two scenes, and the page of them joined; one that is the same, one that is not.

@@ -18,7 +18,7 @@ extern "C" {
 #endif
 
 /* Rises with every change of kage_rtl_table. A program refuses a model of another number: the table begins with it. */
-#define KAGE_RTL_ABI 14u
+#define KAGE_RTL_ABI 15u
 
 typedef struct kage_rtl kage_rtl;
 
@@ -59,7 +59,7 @@ typedef struct {
   uint64_t value[KAGE_RTL_EVENT_VALUES];
 } kage_rtl_event;
 
-#define KAGE_RTL_MARKS 8
+#define KAGE_RTL_MARKS 9
 
 /* All counts are since create() or clear_stats(). */
 typedef struct {

@@ -183,14 +183,14 @@ const Report = (() => {
     const rest = [...rtl];
     const take = (is) => {
       const taken = [];
-      while (rest.length && is(rest[0].token)) taken.push(rest.shift());
+      while (rest.length && is(rest[0].nth)) taken.push(rest.shift());
       return taken;
     };
     for (const t of h.touches) {
       // At tokens of which the history has nothing, as a line's first TP paints pixels beside its span.
-      const before = take((token) => token < t.token);
+      const before = take((nth) => nth < t.nth);
       if (before.length) list.append(make("li", before.map((r) => rtlLine(r, false))));
-      list.append(touchItem(t, take((token) => token === t.token)));
+      list.append(touchItem(t, take((nth) => nth === t.nth)));
     }
     const end = make("li", make("div", h.color_text, {class: "end"}));
     const last = h.touches.at(-1)?.token;
@@ -273,8 +273,11 @@ const Report = (() => {
     if (!frame.phases) return $("phases").replaceChildren();
     const stalls = (name) => Parts.stalls(frame.stalled_by_phase[name] ?? {input_starved: 0, output_blocked: 0}).map(count);
     const share = (n) => frame.cycles ? `${(100 * n / frame.cycles).toFixed(1)} %` : "";
-    const rows = frame.phases.map(([tokens, pixels, clocks], i) =>
-        [data.phase_names[i], count(clocks), share(clocks), count(tokens), count(pixels), ...stalls(data.phase_names[i]), data.phase_tokens[i]]);
+    // What stays in the front end takes no clocks of the core behind it.
+    const work = (name, tokens, pixels, clocks) => name === "polygons" ? ["", "", count(tokens), ""]
+        : [count(clocks), share(clocks), count(tokens), count(pixels)];
+    const rows = frame.phases.map((sum, i) => [data.phase_names[i], ...work(data.phase_names[i], ...sum), ...stalls(data.phase_names[i]), data.phase_tokens[i]])
+        .filter(([name]) => name !== "polygons" || run.config.ACTIVE > 0);
     rows.push(["video", count(frame.video), share(frame.video), "", "", "", "", ""]);
     const left = frame.cycles - frame.designed;
     if (frame.cycles) rows.push(["the rest", count(left), share(left), "", "", ...stalls("behind the last token"), ""]);

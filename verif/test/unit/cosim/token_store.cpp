@@ -9,8 +9,10 @@
 #include <tuple>
 #include <vector>
 
+#include "contract/kinds.hpp"
 #include "file/base64.hpp"
 #include "kage/core.hpp"
+#include "kage/stream.hpp"
 #include "stimulus/polygon_frames.hpp"
 #include "test/support/catch.hpp"
 
@@ -84,6 +86,18 @@ TEST_CASE("of a frame at the polygon level the page has the spans, with the indi
           told.emplace_back(index & ~report::kMade, (index & report::kMade) != 0, to_string(c, t));
       }
     }
+    // What stays in the front end is counted by itself, and each of the rest in its phase.
+    std::uint64_t stay = 0;
+    for (TokenWalk walk(layout, words); !walk.peek().empty();) {
+      const Kind kind = kind_of(walk.next()[0], Level::polygons);
+      stay += kind == Kind::AT || kind == Kind::POLYGON || kind == Kind::GRADIENT || kind == Kind::EDGE ? 1 : 0;
+    }
+    const PhaseSums& phases = store.frames().front().phases;
+    REQUIRE(phases.of[static_cast<std::size_t>(Phase::polygons)].tokens == stay);
+    REQUIRE(phases.of[static_cast<std::size_t>(Phase::polygons)].clocks == 0);
+    std::uint64_t tokens = 0;
+    for (const PhaseSums::Sum& sum : phases.of) tokens += sum.tokens;
+    REQUIRE(tokens == stay + observer.told.size());
     // Behind the last line comes END alone, which does nothing.
     if (told.size() + 1 == observer.told.size()) observer.told.pop_back();
     REQUIRE(told == observer.told);
