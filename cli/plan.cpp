@@ -214,7 +214,7 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
         options.clock->mhz, o.device, device_clock(o.device).core);
   text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
   if (plan.polygon_words > 0) {
-    text += "# that is with spans from the host: neither clocks nor cells of the front end are in it\n";
+    text += "# words and clocks are those with spans from the host; cells and RAM are with the front end\n";
     text += plan.polygon_words < plan.cost.words
                 ? fmt::format("# at the polygon level the frames take {:.1f} times fewer words, {}\n",
                               static_cast<double>(plan.cost.words) / static_cast<double>(plan.polygon_words),

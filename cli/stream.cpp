@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage stream SCENE --out FILE: writes a stream file.
+#include "kage/stream.hpp"
+
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <memory>
+#include <optional>
 
 #include "command.hpp"
 #include "kage/error.hpp"
@@ -45,11 +48,17 @@ int run(const Options& o) {
       writer.begin_port_frame();
     else
       writer.begin_frame();
+    // A file's frames are right for the core that they were written for; another one may have less room.
+    std::optional<FrameChecker> other_core;
+    if (source.is_stream() && !o.config.empty() && !source.is_unchecked(i))
+      other_core.emplace(config, fmt::format("{}, for {}", o.input, o.config), 0);
     counts += source.frame(i, [&](std::span<const std::uint32_t> words) {
       check_interrupt();
       frame_progress.wait();
+      if (other_core) other_core->feed(words);
       writer.words(words);
     });
+    if (other_core) other_core->finish();
     writer.end_frame();
   }
   progress.clear();

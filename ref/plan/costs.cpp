@@ -72,16 +72,20 @@ std::vector<PlanCandidate> costs_of(std::span<const PlannedScene> scenes, const 
     }
   }
   for (PlanCandidate& c : out) {
-    const Cells cells = estimated_cells(c.config);
     c.cost.words = shared.words;
     c.cost.golden_seconds = shared.golden_seconds;
-    c.cost.luts = cells.luts;
-    c.cost.flip_flops = cells.flip_flops;
-    c.cost.luts_off = cell_spread(c.config).luts;
-    c.cost.ram_bits = cells.ram_bits;
-    c.cost.bits_per_pixel = cells.bits_per_pixel;
+    estimate_cells(c.cost, c.config);
   }
   return out;
+}
+
+void estimate_cells(PlanCost& cost, const Config& config) {
+  const Cells cells = estimated_cells(config);
+  cost.luts = cells.luts;
+  cost.flip_flops = cells.flip_flops;
+  cost.luts_off = cell_spread(config).luts;
+  cost.ram_bits = cells.ram_bits;
+  cost.bits_per_pixel = cells.bits_per_pixel;
 }
 
 }  // namespace kage::plan

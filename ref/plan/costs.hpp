@@ -19,4 +19,7 @@ std::vector<Config> arrangements_of(const Config& base);
 std::vector<PlanCandidate> costs_of(std::span<const PlannedScene> scenes, const Config& base, const std::string& way,
                                     const FrameStep& step);
 
+/// Cells and RAM of a core, in its cost.
+void estimate_cells(PlanCost& cost, const Config& config);
+
 }  // namespace kage::plan

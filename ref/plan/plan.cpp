@@ -75,12 +75,20 @@ class Planner {
     passes_ = (options_.front_end ? 2 : 1) + of_way * static_cast<int>(demands_.size());
   }
 
-  /// ACTIVE changes no pixel and no other parameter, so the core that is chosen gets what its frames ask for.
+  /// ACTIVE changes no pixel and no other parameter, so the core that is chosen gets what its frames ask for. Those
+  /// that it is compared with get as much.
   void add_front_end() {
     const plan::FrontEndDemand demand = plan::front_end_demand_of(scenes_, out_.config, [this] { step(); });
     out_.polygon_words = demand.words;
     const int most = static_cast<int>(demand.active.value);
     out_.config.active = std::max(1, most);
+    plan::estimate_cells(out_.cost, out_.config);
+    const auto with_front_end = [this](PlanCandidate& c) {
+      c.config.active = out_.config.active;
+      plan::estimate_cells(c.cost, c.config);
+    };
+    std::ranges::for_each(out_.others, with_front_end);
+    if (out_.least) with_front_end(*out_.least);
     for (PlanReason& r : out_.reasons) {
       if (r.parameter != "ACTIVE") continue;
       r.value = out_.config.active;

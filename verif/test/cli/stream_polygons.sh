@@ -49,6 +49,19 @@ json c.json 'j["level"]=="polygons" and j["polygons"] is None'
 trouble "polygons.kage: --level, --front-end: a stream has its own level" "$kage" stream polygons.kage --level polygons --out x.kage
 [ ! -e x.kage ] || fail "a refused stream leaves a file"
 expect 2 "$kage" stream courtyard --level edges --out x.kage
+# A copy for another core that would refuse it.
+active=$("$kage" info polygons.kage --json - | python3 -c 'import json, sys; print(json.load(sys.stdin)["config"]["ACTIVE"])')
+for row in "ACTIVE: 1,ACTIVE_FULL" "ACTIVE: 0,HEADER" "ACTIVE: $active,"; do
+  printf 'LANES: 2\n%s\n' "${row%,*}" >other.yaml
+  cause=${row#*,}
+  if [ -z "$cause" ]; then
+    expect 0 "$kage" stream polygons.kage --config other.yaml --out other.kage
+  else
+    trouble "polygons.kage, for other.yaml: frame 0, line " "$kage" stream polygons.kage --config other.yaml --out x.kage
+    grep -q "($cause)$" stderr || fail "$row: $(cat stderr)"
+    [ ! -e x.kage ] || fail "a refused copy leaves a file"
+  fi
+done
 expect 0 "$kage" stream --help
 grep -q 'ACTIVE, which is 512' stdout || tr '\n' ' ' <stdout | tr -s ' ' | grep -q 'ACTIVE, which is 512' || fail "--help does not say what ACTIVE becomes"
 
