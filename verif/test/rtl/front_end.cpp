@@ -210,8 +210,9 @@ void front_end_test() {
 constexpr Config kTimed = config_of<Vfront_end>();
 constexpr int kLines = 40;
 
-/// A frame of kLines lines, with so many polygons that cross all of its lines from line `first` on.
-Words timed_frame(int polygons, int first) {
+/// A frame of kLines lines, with so many polygons that cross all of its lines from line `first` on, and on line `again`
+/// so many of them get an edge once more.
+Words timed_frame(int polygons, int first, int again = -1, int later_edges = 0) {
   Words words;
   kage::TokenWriter writer(kTimed, words);
   kage::FrameHeader header;
@@ -232,6 +233,17 @@ Words timed_frame(int polygons, int first) {
         t.bottom_y = 256 * kLines;
         writer.edge(t);
       }
+    }
+    for (int i = 0; y == again && i < later_edges; ++i) {
+      kage::PolygonToken t;
+      t.rank = i;
+      writer.at(t, 0);
+      t.side = 1;
+      t.last = true;
+      t.top_x = t.bottom_x = 256 * 12;
+      t.top_y = 256 * again;
+      t.bottom_y = 256 * kLines;
+      writer.edge(t);
     }
     writer.eol(y);
   }
@@ -317,6 +329,13 @@ TEST_CASE("a polygon costs front_end a clock a line", "[front_end]") {
   const auto clocks = [](int polygons) { return run(timed_frame(polygons, 0)).out.back().clock; };
   // One clock more a line for each polygon more; those of the line on which it begins are its tokens'.
   CHECK(clocks(6) - clocks(5) == kLines - 1 + 4);
+}
+
+TEST_CASE("a later edge costs front_end two clocks", "[front_end]") {
+  const auto clocks = [](int edges) { return run(timed_frame(6, 0, kLines / 2, edges)).out.back().clock; };
+  // The line's first AT comes while its first polygon is waited for.
+  CHECK(clocks(1) - clocks(0) == 1);
+  for (int edges = 2; edges <= 6; ++edges) CHECK(clocks(edges) - clocks(edges - 1) == 2);
 }
 
 TEST_CASE("a line costs front_end four clocks and its polygons, six at least, or three", "[front_end]") {
