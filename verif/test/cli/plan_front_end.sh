@@ -95,16 +95,23 @@ stream none courtyard none.yaml --size 1x1 --frames 1
 json none.json 'j["polygons"]["active"]==0'
 json json/plan.none.json "j['polygon_words']==$(python3 -c 'import json; print(json.load(open("none.json"))["words"])')"
 
-# Spans from the host: the same plan but for the front end, which its costs never have.
+# Spans from the host: the same plan but for the front end and what it takes.
 expect 0 "$kage" plan courtyard "${small[@]}" --front-end host --json json/plan.host.json
 cp stdout host.yaml
 grep -q '^ACTIVE: 0 .*# spans come from the host' host.yaml || fail "$(grep ACTIVE host.yaml)"
 json json/plan.host.json 'j["config"]["ACTIVE"]==0 and j["polygon_words"] is None'
 expect 0 "$kage" plan courtyard "${small[@]}"
 cmp stdout host.yaml || fail "--front-end host is not what there is without it"
-grep -v '^ACTIVE:' host.yaml >without
-grep -vE '^ACTIVE:|^# at the polygon level |^# that is with spans from the host: neither clocks nor cells of the front end are in it$' small.yaml | cmp - without || fail "a front end changes more than ACTIVE"
-[ "$(grep -c '^# that is with spans from the host' small.yaml)" = 1 ] || fail "not said what the costs are of: $(cat small.yaml)"
+cells='[0-9]* LUTs (within [0-9]* %), [0-9]* flip-flops, [0-9]* bits of RAM'
+grep -v '^ACTIVE:' host.yaml | sed "s/$cells/cells/" >without
+grep -vE '^ACTIVE:|^# at the polygon level |^# words and clocks are those with spans from the host; cells and RAM are with the front end$' small.yaml |
+  sed "s/$cells/cells/" | cmp - without || fail "a front end changes more than ACTIVE and cells"
+[ "$(grep -c '^# words and clocks are those with spans from the host' small.yaml)" = 1 ] || fail "not said what the costs are of: $(cat small.yaml)"
+# Each way that was costed has its cells with a front end, as kage area estimates those of the chosen one.
+[ "$(grep -c " $cells" host.yaml)" -gt 1 ] || fail "$(cat host.yaml)"
+paste -d' ' <(grep -o '[0-9]* LUTs (within' host.yaml) <(grep -o '[0-9]* LUTs (within' small.yaml) | awk '{ if ($4 < $1 + 5000) exit 1 }' || fail "no front end in the cells"
+expect 0 "$kage" area small.yaml --estimate
+grep -q ": some $(grep -m1 -o '[0-9]* LUTs' small.yaml) and " stdout || fail "$(cat stdout)"
 
 trouble "--front-end: card not in {host,rtl}" "$kage" plan courtyard --front-end card
 expect 0 "$kage" help plan
