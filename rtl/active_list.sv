@@ -117,7 +117,7 @@ module active_list #(
       .rd_data_o(word)
   );
 
-  // ---- the next polygon, compared on its way to be the first ---------------------------------------------------------
+  // ---- the next polygon, compared on its way to be the first -------------------------------------------------------
   logic next_valid_q, first_valid_q, first_free, before_q, same_q, goes_on_q;
   logic [BITS-1:0] next_q, first_q;
   logic [PLACE_BITS-1:0] compared;

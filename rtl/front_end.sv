@@ -10,8 +10,8 @@
 //   its way to be the head, a polygon on its way to be the list's first, and again when an AT has a new place.
 // Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. drop_i, from behind, is
 //   high only in a clock in which a token is taken that does not end its frame: all that is here of the frame is
-//   forgotten, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet. token_ready_o depends on
-//   registers only.
+//   forgotten, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet. token_ready_o depends
+//   on registers only.
 // Index: token_index_o is that of the token in the stream; what is made of a polygon has that of the token at hand.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull). After a
 //   token at fault what comes does not matter.
@@ -239,7 +239,7 @@ module front_end #(
     coming.an_edge = coming.of_level && kind == KindEdge;
     coming.eol = coming.of_level && kind == KindEol;
     coming.span = coming.of_level && kind_has_range(kind) && kind != KindPolygon && kind != KindEdge;
-    coming.at_once = !coming.at && !coming.polygon && !coming.gradient && !coming.an_edge && !coming.eol && !coming.span;
+    coming.at_once = !(coming.at || coming.polygon || coming.gradient || coming.an_edge || coming.eol || coming.span);
     coming.misplaced = 1'b0;
     if (coming.at && (!has_layer || !has_light || (placed_q && place < place_q))) coming.misplaced = 1'b1;
     if ((coming.polygon || coming.an_edge || coming.span) && !placed_q) coming.misplaced = 1'b1;
@@ -355,8 +355,8 @@ module front_end #(
         if (is_q.last) end_have_q <= 1'b1;
       end
     end
-    // Written as long as the token waits: whether it leaves is known late. The polygon that needs what is there has left
-    // when the polygon of an EDGE is the list's first.
+    // Written as long as the token waits: whether it leaves is known late. The polygon that needs what is there has
+    // left when the polygon of an EDGE is the list's first.
     if (head_q && is_q.an_edge && (begun_q || (list_valid && list_same))) begin
       side_q[is_q.side] <= walked_edge;
       if (is_q.last) begin
@@ -541,7 +541,8 @@ module front_end #(
   assign token_flags_o = out_flags;
   assign out_ready = token_ready_i;
 
-  assign busy_o = queue_there || next_valid || head_q || under_q != '0 || ending || made_valid || out_valid || dropping_q;
+  assign busy_o = queue_there || next_valid || head_q || under_q != '0 || ending || made_valid || out_valid ||
+      dropping_q;
   assign moving_o = push || (queue_there && queue_taken) || (next_valid && next_ready) || head_ready || list_pop ||
       (list_left && !list_valid) || walk_busy || ending || (dropping_q && (!owed_q || token_valid_i)) ||
       edges_q != '0 || !swap_ready;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A register for a valid/ready stream that cuts the path of `valid` and of the data, and lets `ready` through. Where the
-// path of `ready` has to be cut as well: skid_buffer.
+// A register for a valid/ready stream that cuts the path of `valid` and of the data, and lets `ready` through. Where
+// the path of `ready` has to be cut as well: skid_buffer.
 //
 // Handshake: valid/ready on both sides; valid never waits for ready; out_data_o is stable while out_valid_o waits.
 //   in_ready_o depends on out_ready_i.

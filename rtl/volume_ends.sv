@@ -5,8 +5,9 @@
 //
 // Handshake: valid/ready on both sides, item_* with span_i where the item is a polygon's (item_made_i). item_ready_o
 //   depends on token_ready_i, which comes from a register.
-// Item: {plain: a token that passes as it is, whatever volumes are open; whole: a near cap over the whole line; family: the place but for its rank; index: in
-//   the frame, of the token at hand; flags, token: of one that is not a polygon's}.
+// Item: {plain: a token that passes as it is, whatever volumes are open; whole: a near cap over the whole line; family:
+//   the place but for its rank; index: in the frame, of the token at hand; flags, token: of one that is not a
+//   polygon's}.
 // flush_i: nothing is open, as after reset and behind a header.
 // Latency: 1 clock. Throughput: a token a clock; an end of a volume, of a sample, and RESOLVE are tokens like others. A
 //   polygon without pixels, or whose weight is 0, takes a clock and gives none; without FSF so does a volume's end.

@@ -7,8 +7,8 @@
 
 #include "kage/stream.hpp"
 #include "number/counted.hpp"
-#include "stream/count.hpp"
 #include "polygon/span_tokens.hpp"
+#include "stream/count.hpp"
 
 namespace kage {
 

@@ -13,8 +13,8 @@
 
 #include "cosim/phases.hpp"
 #include "kage/stream.hpp"
-#include "stream/cutter.hpp"
 #include "polygon/span_tokens.hpp"
+#include "stream/cutter.hpp"
 
 namespace kage::report {
 

@@ -204,8 +204,9 @@ void front_end_test() {
   });
 }
 
-// ---- clocks ----------------------------------------------------------------------------------------------------------
-// Frames of a few polygons, with no stall on either side.
+// ---- clocks
+// ---------------------------------------------------------------------------------------------------------- Frames of
+// a few polygons, with no stall on either side.
 
 constexpr Config kTimed = config_of<Vfront_end>();
 constexpr int kLines = 40;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// skid_buffer, stream_fifo and stream_register: order, capacity, stability, speed. ram_1r1w: what was written is read, and held.
+// skid_buffer, stream_fifo and stream_register: order, capacity, stability, speed. ram_1r1w: what was written is read,
+// and held.
 #include <deque>
 
 #include "Vram.h"
