@@ -226,7 +226,7 @@ def main() -> int:
     )
     command.add_argument("--seeds", type=int, default=3)
     command.add_argument("--kernel", choices=kernels, help="this one alone")
-    command.add_argument("--wheels", type=pathlib.Path, required=True)
+    command.add_argument("--wheels", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
     command.set_defaults(run=show_figures)
     arguments = parser.parse_args()
     try:
