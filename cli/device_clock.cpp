@@ -13,7 +13,7 @@
 
 namespace kage::cli {
 
-DeviceClock device_clock(const std::string& device) {
+DeviceClock device_clock(const std::string& device, bool front_end) {
   const std::string path = (data_directory() / "constraints/figures.json").string();
   std::ifstream file(path);
   if (!file) throw Error(fmt::format("{}: cannot be read", path));
@@ -23,6 +23,7 @@ DeviceClock device_clock(const std::string& device) {
     for (const auto& row : nlohmann::json::parse(file)) {
       devices.insert(row.at("device").get<std::string>());
       const double mhz = row.at("clock_mhz").get<double>();
+      if (row.value("front_end", false) && !front_end) continue;
       if (row.at("device") != device || (!slowest.core.empty() && mhz >= slowest.mhz)) continue;
       slowest = {mhz, row.at("core").get<std::string>()};
     }

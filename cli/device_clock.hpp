@@ -14,6 +14,7 @@ struct DeviceClock {
 
 /// The clock of the slowest core on the device: a plan does not know its own until it is placed. Throws Error if the
 /// device has no row.
-DeviceClock device_clock(const std::string& device);
+/// @param front_end whether the core may have a front end: cores with one are slower
+DeviceClock device_clock(const std::string& device, bool front_end);
 
 }  // namespace kage::cli

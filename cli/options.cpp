@@ -200,7 +200,10 @@ void option_front_end(CLI::App& command, Options& options) {
   static const std::map<std::string, Level> kWho{{"host", Level::spans}, {"rtl", Level::polygons}};
   command
       .add_option_function<std::string>(
-          "--front-end", [&options](const std::string& who) { options.level = kWho.at(who); },
+          "--front-end", [&options](const std::string& who) {
+            options.level = kWho.at(who);
+            options.level_option = options.level == Level::polygons ? "--front-end rtl" : "";
+          },
           fmt::format(
               "who makes spans of polygons, default host: rtl sends frames at the polygon level, and the "
               "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
@@ -230,7 +233,10 @@ static const std::map<std::string, Level>& levels() {
 void option_level(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
-          "--level", [&options](const std::string& name) { options.level = levels().at(name); },
+          "--level", [&options](const std::string& name) {
+            options.level = levels().at(name);
+            options.level_option = "--level";
+          },
           fmt::format(
               "what the tokens of frames are, default spans; polygons are fewer words, and the core's front end "
               "makes the spans (docs/stream.md): a core with ACTIVE, which is {} for a scene whose configuration "

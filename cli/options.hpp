@@ -60,6 +60,7 @@ struct Options {
   int classes = Look{}.classes;                ///< of normals
   int sub_bits = Look{}.sub_bits;              ///< of snapped positions
   Level level = Level::spans;                  ///< of the frames that are made
+  std::string level_option;                    ///< that asked for a level which not every source has
 };
 
 /// As --order has it.

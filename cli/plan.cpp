@@ -69,7 +69,7 @@ PlanOptions options_of(const PlanCommand& o, Progress& progress) {
     throw Error("--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured");
   if (o.clock || !o.device.empty()) {
     PlanClock clock;
-    clock.mhz = o.clock ? *o.clock : device_clock(o.device).mhz;
+    clock.mhz = o.clock ? *o.clock : device_clock(o.device, options.front_end).mhz;
     clock.fps = o.fps.value_or(clock.fps);
     clock.total_lines = o.total_lines.value_or(0);
     options.clock = clock;
@@ -211,7 +211,7 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
   if (!o.device.empty())
     text += fmt::format(
         "# {:g} MHz is what the slowest core placed on {} reached, {}; others are faster (docs/timing.md)\n",
-        options.clock->mhz, o.device, device_clock(o.device).core);
+        options.clock->mhz, o.device, device_clock(o.device, options.front_end).core);
   text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
   if (plan.polygon_words > 0) {
     text += "# words and clocks are those with spans from the host; cells and RAM are with the front end\n";

@@ -122,8 +122,8 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
-  if (options.level != Level::spans)
-    throw Error(fmt::format("{}: --level, --front-end: a stream has its own level", options.input));
+  if (!options.level_option.empty())
+    throw Error(fmt::format("{}: {}: a stream has its own level", options.input, options.level_option));
   if (options.max_fragments)
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);

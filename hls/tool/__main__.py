@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import os
 import pathlib
 import shutil
 import subprocess
@@ -196,6 +197,12 @@ def show_figures(arguments: argparse.Namespace) -> int:
     return 0
 
 
+def whole_number(text: str) -> int:
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"{text}: no whole number")
+    return int(text)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tools/hls", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
@@ -204,13 +211,13 @@ def main() -> int:
     command = commands.add_parser("generate")
     command.add_argument("--check", action="store_true")
     command.add_argument("--device", default="ecp5-85f")
-    command.add_argument("--stages", type=int)
+    command.add_argument("--stages", type=whole_number)
     command.set_defaults(run=generate)
     command = commands.add_parser("steps")
     command.add_argument("kernel")
     command.add_argument("step", nargs="?", choices=("ir", "graph", "small", "schedule", "verilog"))
     command.add_argument("--device", default="ecp5-85f")
-    command.add_argument("--stages", type=int)
+    command.add_argument("--stages", type=whole_number)
     command.set_defaults(run=show_steps)
     command = commands.add_parser("mutate")
     command.add_argument("kernels", nargs="*", help="or generated modules; default: all")
@@ -226,11 +233,16 @@ def main() -> int:
     )
     command.add_argument("--seeds", type=int, default=3)
     command.add_argument("--kernel", choices=kernels, help="this one alone")
-    command.add_argument("--wheels", type=pathlib.Path, required=True)
+    command.add_argument("--wheels", type=pathlib.Path, required=True, help=argparse.SUPPRESS)
     command.set_defaults(run=show_figures)
     arguments = parser.parse_args()
     try:
-        return arguments.run(arguments)
+        code = arguments.run(arguments)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:  # the reader has seen enough
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except Trouble as e:
         print(f"tools/hls: {e}", file=sys.stderr)
         return 2

@@ -30,6 +30,7 @@ def row_of(figures):
     return {
         "device": figures["device"],
         "core": figures["core"],
+        **({"front_end": True} if figures["parameters"]["ACTIVE"] > 0 else {}),
         "date": datetime.date.today().isoformat(),
         "tools": figures["tools"],
         "cells": {k: v["used"] for k, v in figures["cells"].items()},

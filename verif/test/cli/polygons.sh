@@ -156,6 +156,6 @@ echo 'ACTIVE: 6' >front.yaml
 expect 0 "$kage" explain random --front-end rtl --config front.yaml --frame 3 --pixel 0,0
 expect 0 "$kage" explain random:damaged --front-end rtl --config front.yaml --frame 8 --pixel 0,0
 expect 0 "$kage" explain random --front-end rtl --frame 3 --pixel 0,0
-trouble 'a stream has its own level' "$kage" cosim polygons.kage --front-end rtl
+trouble 'polygons.kage: --front-end rtl: a stream has its own level' "$kage" cosim polygons.kage --front-end rtl
 expect 2 "$kage" cosim random --front-end card
 done_testing

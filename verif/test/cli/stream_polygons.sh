@@ -46,7 +46,7 @@ cmp -s polygons.kage copy.kage || fail "a copy differs"
 json c.json 'j["level"]=="polygons" and j["polygons"] is None'
 
 # What cannot be.
-trouble "polygons.kage: --level, --front-end: a stream has its own level" "$kage" stream polygons.kage --level polygons --out x.kage
+for level in spans polygons; do trouble "polygons.kage: --level: a stream has its own level" "$kage" stream polygons.kage --level $level --out x.kage; done
 [ ! -e x.kage ] || fail "a refused stream leaves a file"
 expect 2 "$kage" stream courtyard --level edges --out x.kage
 # A copy for another core that would refuse it.
