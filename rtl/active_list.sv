@@ -68,7 +68,7 @@ module active_list #(
       all_q <= '0;
     end else begin
       left_q <= swap_i ? kept_q : left_q - TallyBits'(pop_i);
-      // The counters decide before it is known what happens.
+      // What it comes to is told by the counters alone, and pop_i, which comes late, only chooses.
       left_any_q <= swap_i ? kept_q != '0 : pop_i ? left_q != TallyBits'(1) : left_any_q;
       full_q <= pop_i == keep_i ? full_q : keep_i && all_q == TallyBits'(ACTIVE - 1);
       kept_q <= swap_i ? '0 : kept_q + TallyBits'(keep_i);

@@ -10,8 +10,8 @@
 //   its way to be the head, a polygon on its way to be the list's first, and again when an AT has a new place.
 // Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. drop_i, from behind, is
 //   high only in a clock in which a token is taken that does not end its frame: all that is here of the frame is
-//   forgotten, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet. token_ready_o depends
-//   on registers only.
+//   forgotten, token_valid_o falls, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet.
+//   token_ready_o depends on registers only.
 // Index: token_index_o is that of the token in the stream; what is made of a polygon has that of the token at hand.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull). After a
 //   token at fault what comes does not matter.
@@ -59,6 +59,10 @@ module front_end #(
 
   if (ACTIVE < 1) begin : gen_bad_active
     `KAGE_ILLEGAL("ACTIVE must be at least 1 where there is a front end")
+  end
+
+  if (IN_WORDS < OUT_WORDS || IN_WORDS < PolygonTokenWords) begin : gen_bad_words
+    `KAGE_ILLEGAL("IN_WORDS must be at least OUT_WORDS, and a polygon's")
   end
 
   localparam int Depth = 32;  // of the queues: more than hls_edge_setup has stages, so that edges do not hold up tokens
@@ -283,8 +287,8 @@ module front_end #(
   // ---- merge -------------------------------------------------------------------------------------------------------
   logic list_valid, list_left, list_room, list_before, list_same, list_goes_on, swap_ready, list_pop, keep, swap, clear;
   logic [ActiveBits-1:0] list;
-  logic misplaced, flushing, completes, fault, item, room_q, early;
-  logic gives_fresh, gives_token;
+  logic misplaced, flushing, completes, fault, item, room_q;
+  logic gives_fresh, gives_token, made_in;
   logic [CodeBits-1:0] code;
   assign misplaced = is_q.misplaced || (is_q.of_level && begun_q && !is_q.an_edge && !is_q.gradient) ||
       (is_q.gradient && !begun_q);
@@ -295,19 +299,19 @@ module front_end #(
   always_comb begin
     fault = misplaced;
     code  = ErrPlace;
-    if (is_q.an_edge && !begun_q && (!list_valid || !list_left || !list_same)) fault = 1'b1;
+    if (is_q.an_edge && !begun_q && (!list_valid || !list_same)) fault = 1'b1;
     if (completes && !list_room) begin
       fault = 1'b1;
       code  = ErrActiveFull;
     end
   end
   // All tokens wait for room, though some need none: whether one is at fault is known late.
-  assign head_ready = head_q && room_q && !flushing && (!is_q.an_edge || edge_valid) && (!is_q.eol || swap_ready) &&
-      (!flags_q.header || !early);
+  assign head_ready = head_q && room_q && !flushing && (!is_q.an_edge || edge_valid) && (!is_q.eol || swap_ready);
   assign gives_fresh = head_ready && completes && !fault;
   assign gives_token = head_ready && (is_q.at_once || is_q.eol || is_q.span || fault);
   assign list_pop = flushing && list_valid && room_q;
-  assign item = list_pop || gives_fresh || gives_token;
+  assign made_in = list_pop || gives_fresh;
+  assign item = made_in || gives_token;
   assign edge_ready = head_ready && is_q.an_edge;
   assign swap = head_ready && is_q.eol && !fault;
   assign clear = flush || (head_ready && flags_q.header);
@@ -317,7 +321,7 @@ module front_end #(
   logic [ActiveBits-1:0] polygon;
   assign fresh   = is_q.an_edge && begun_q;
   assign goes_on = fresh && is_q.last ? is_q.goes_on : end_have_q ? end_goes_on_q : fresh || list_goes_on;
-  assign keep    = goes_on && (list_pop || gives_fresh);
+  assign keep    = goes_on && made_in;
   always_comb begin
     polygon = fresh ? fresh_q : list;
     if (fresh && is_q.last) polygon[ActiveEndAt+:EndLineBits] = is_q.end_line;
@@ -355,8 +359,8 @@ module front_end #(
         if (is_q.last) end_have_q <= 1'b1;
       end
     end
-    // Written as long as the token waits: whether it leaves is known late. The polygon that needs what is there has
-    // left when the polygon of an EDGE is the list's first.
+    // Written in each clock in which the token waits, because whether it leaves is known late. That loses nothing: a
+    // polygon of the list that has yet to take its side from here goes first, so list_same is low until it has.
     if (head_q && is_q.an_edge && (begun_q || (list_valid && list_same))) begin
       side_q[is_q.side] <= walked_edge;
       if (is_q.last) begin
@@ -429,14 +433,13 @@ module front_end #(
       .flush_i     (flush),
       .width_i     (width_q),
       .in_valid_i  (item),
-      .in_made_i   (list_pop || gives_fresh),
+      .in_made_i   (made_in),
       .in_keep_i   (goes_on),
       .in_swap_i   (gives_token && is_q.eol && !fault),
       .polygon_i   (polygon),
       .write_o     (list_write),
       .next_o      (next_polygon),
       .swap_write_o(swap_write),
-      .early_o     (early),
       .out_valid_o (walk_valid),
       .span_o      (walked),
       .busy_o      (walk_busy)
@@ -447,7 +450,7 @@ module front_end #(
   localparam int ItemBits = 2 + FamilyBits + 32 + FlagsBits + OutBits;
   logic [ItemBits-1:0] item_in, item_next;
   logic [MadeSpanBits-1:0] span_next;
-  logic item_room, item_there, made_room, made_there, made_in, made_next, whole;
+  logic item_room, item_there, made_room, made_there, made_next, whole;
   logic out_next, item_ready, ending, made_valid, made_ready;
   logic [OutBits-1:0] made;
   flags_t item_flags, made_flags;
@@ -459,7 +462,6 @@ module front_end #(
     item_flags = flags_q;
     item_flags.fault = gives_token && fault ? code : ErrNone;
   end
-  assign made_in = list_pop || gives_fresh;
   assign whole = is_q.span && !fault && token_q[KindBits-1:0] == KindNc &&
       token_q[RangeXlLsb+:X_BITS] == '0 && token_q[RangeXrLsb+:X_BITS] == width_q;
   assign family = flushing ? list[ActivePlaceAt+RankBits+:FamilyBits] : place_q[RankBits+:FamilyBits];
@@ -545,7 +547,7 @@ module front_end #(
       dropping_q;
   assign moving_o = push || (queue_there && queue_taken) || (next_valid && next_ready) || head_ready || list_pop ||
       (list_left && !list_valid) || walk_busy || ending || (dropping_q && (!owed_q || token_valid_i)) ||
-      edges_q != '0 || !swap_ready;
+      edges_q != '0 || (edge_there && edge_taken) || !swap_ready || (!room_q && under_q < UnderBits'(Under));
 
   logic unused_bits;
   assign unused_bits = ^{token_q, token_i, in_flags, past_bottom};
@@ -558,10 +560,14 @@ module front_end #(
       assert (!drop_i || (out_valid && out_ready && !out_flags.ends));
       // 2. There is room for what goes beside.
       assert (!edge_out || edge_room || flush);
+      assert (!edge_in || edges_q != '1);
       assert (!room_q || flush || under_q < UnderBits'(Under));
       assert (!item || item_room);
       assert (!walk_valid || made_room);
       assert (!made_there || item_there);
+      // 3. A header finds nothing of the frame before in the walk, so nothing comes to be written to the list that it
+      //    clears.
+      assert (!(head_q && flags_q.header) || (under_q == '0 && !walk_busy));
     end
   end
 `endif

@@ -30,7 +30,6 @@ module polygon_walk #(
     output logic                    write_o,
     output logic [  ActiveBits-1:0] next_o,
     output logic                    swap_write_o,
-    output logic                    early_o,       // something is before the point where it is written
     output logic                    out_valid_o,
     output logic [MadeSpanBits-1:0] span_o,
     output logic                    busy_o         // something is in here
@@ -47,7 +46,6 @@ module polygon_walk #(
   logic [1:0] keep_q, swap_q;
   assign out_valid_o = valid_q[Stages-1];
   assign busy_o = valid_q != '0;
-  assign early_o = valid_q[1:0] != 2'b00;
   always_ff @(posedge clk_i) begin
     if (!rst_ni || flush_i) valid_q <= '0;
     else valid_q <= {valid_q[Stages-2:0], in_valid_i};

@@ -10,6 +10,10 @@ expect 0 "$kage" cosim random:mixed --front-end rtl --config small.yaml --frames
 json r.json 'j["same"] and j["frames"] == 120'
 expect 0 "$kage" cosim random:mixed --config small.yaml --frames 60 --seed 6 --out spans --json r.json
 json r.json 'j["same"] and j["frames"] == 60 and j["config"]["ACTIVE"] == 6'
+# Frames that wait for an edge while the next frame fills the reader: what moves is said to move (kage_top's first assertion).
+echo '{ACTIVE: 3}' >few.yaml
+expect 0 "$kage" cosim random:mixed --front-end rtl --config few.yaml --frames 100 --seed 311 --idle 30 --out few --json r.json
+json r.json 'j["same"] and j["frames"] == 100'
 expect 0 "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --out scene --json s.json
 json s.json 'j["same"] and j["config"]["ACTIVE"] == 48'
 # A defect that no pixel shows is found by the stages alone: spans of one pixel keep their step.

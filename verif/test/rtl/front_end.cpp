@@ -138,6 +138,8 @@ void front_end_test() {
     std::size_t in_frame = 0, in_at = 0, out_frame = 0, out_at = 0;
     bool dropping = false;  // the next token is to be dropped
     bool waits = false;
+    bool still = false;  // nothing moved in the clock before
+    bool was_valid = false;
     for (int clock = 0; out_frame < out.size(); ++clock) {
       REQUIRE(clock < 400000);
       const bool offered = offer(dice, in_frame < in.size());
@@ -185,6 +187,14 @@ void front_end_test() {
         }
       }
       const bool in_taken = offered && top->token_ready_o;
+      // moving_o: where it is low, and nothing comes or leaves, nothing is otherwise a clock later.
+      if (still && !in_taken) {
+        REQUIRE(!top->moving_o);
+        REQUIRE(static_cast<bool>(top->token_valid_o) == was_valid);
+      }
+      still = !top->moving_o && !taken && !in_taken;
+      was_valid = top->token_valid_o;
+      if (top->token_valid_o || top->moving_o) REQUIRE((top->busy_o || in_taken));
       const bool in_dropped = top->drop_o;
       if (in_dropped) REQUIRE((in_taken && !given->ends));
       top.edge();
