@@ -200,7 +200,8 @@ void option_front_end(CLI::App& command, Options& options) {
   static const std::map<std::string, Level> kWho{{"host", Level::spans}, {"rtl", Level::polygons}};
   command
       .add_option_function<std::string>(
-          "--front-end", [&options](const std::string& who) {
+          "--front-end",
+          [&options](const std::string& who) {
             options.level = kWho.at(who);
             options.level_option = options.level == Level::polygons ? "--front-end rtl" : "";
           },
@@ -233,7 +234,8 @@ static const std::map<std::string, Level>& levels() {
 void option_level(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
-          "--level", [&options](const std::string& name) {
+          "--level",
+          [&options](const std::string& name) {
             options.level = levels().at(name);
             options.level_option = "--level";
           },
