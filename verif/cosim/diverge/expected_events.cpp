@@ -249,7 +249,7 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
 }
 
 // What a pixel had to be compared with, at its event that was put() last.
-void ExpectedEvents::came(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color) {
+void ExpectedEvents::came_to_pixel(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color) {
   ExpectedEvent& e = newest(Stage::pixel, x);
   if (z) e.expect(at::pixel::z_came, *z);
   if (color) e.expect(at::pixel::color_came, *color);
@@ -283,7 +283,7 @@ void ExpectedEvents::tree_events(const LineView& line) {
     }
     put(e);
     touch(number(Kind::TREE), x, line.pixel(x), of_pixel);
-    came(x, p.z, p.z == clear ? std::nullopt : std::optional(packed(p.color)));
+    came_to_pixel(x, p.z, p.z == clear ? std::nullopt : std::optional(packed(p.color)));
   }
 }
 
@@ -298,8 +298,8 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
       if (!info.range) break;
       for (int x = s.xl; x < s.xr; ++x) {
         touch(number(t.kind), x, line.pixel(x), of_pixel);
-        came(x, info.depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
-             info.color ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
+        came_to_pixel(x, info.depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
+                      info.color ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
       }
     }
   }

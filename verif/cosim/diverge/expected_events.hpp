@@ -126,7 +126,7 @@ class ExpectedEvents : public CoreObserver {
   void face_event(const SegmentToken& f);
   void segment_event(const SegmentToken& s);
   void tree_events(const LineView& line);
-  void came(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color);
+  void came_to_pixel(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color);
   void touch(int kind, int x, const PixelState& after, int step);
 
   // Of a line as a whole: expected_line.cpp.
