@@ -21,6 +21,7 @@ namespace {
 report::OptionsRecord options_of(const CosimCommand& o) {
   return {.fault = o.rtl.fault,
           .netlist = o.rtl.netlist,
+          .front_end = front_end_of(o.level),
           .idle = o.rtl.options.idle_percent,
           .backpressure = o.rtl.options.backpressure_percent,
           .degrade = o.degrade,

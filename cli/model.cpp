@@ -44,6 +44,8 @@ int run(const ModelCommand& o) {
   if (o.configs.empty() && o.planned.empty()) list = named_configs();
   for (const std::string& name : o.configs) list.push_back(load_config(name));
   for (NamedConfig& named : plans(o)) list.push_back(std::move(named));
+  for (NamedConfig& named : list)
+    if (give_front_end(o, named.config)) named.name += fmt::format(" with ACTIVE {}", named.config.active);
   Json j = Json::array();
   for (const NamedConfig& named : list) {
     const cosim::Model model = model_of(named, {.fault = o.fault, .netlist = o.netlist, .options = {}});
@@ -66,6 +68,7 @@ void add_model(CLI::App& app, Action& action) {
                             "  kage model\n"
                             "  kage model default full\n"
                             "  kage model tiny --netlist ice40\n"
+                            "  kage model default --front-end rtl              # what kage cosim takes with that\n"
                             "  kage model mine.yaml --json -\n"
                             "  kage model --plan courtyard --plan bunny.obj");
   const auto o = std::make_shared<ModelCommand>();
@@ -81,6 +84,7 @@ void add_model(CLI::App& app, Action& action) {
   options_of_pictures(*c, *o);
   option_fault(*c, o->fault);
   option_netlist(*c, o->netlist);
+  option_front_end(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

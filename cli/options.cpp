@@ -196,13 +196,17 @@ void option_max_fragments(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
-void option_front_end(CLI::App& command, Options& options) {
+static const std::map<std::string, Level>& front_ends() {
   static const std::map<std::string, Level> kWho{{"host", Level::spans}, {"rtl", Level::polygons}};
+  return kWho;
+}
+
+void option_front_end(CLI::App& command, Options& options) {
   command
       .add_option_function<std::string>(
           "--front-end",
           [&options](const std::string& who) {
-            options.level = kWho.at(who);
+            options.level = front_ends().at(who);
             options.level_option = options.level == Level::polygons ? "--front-end rtl" : "";
           },
           fmt::format(
@@ -212,6 +216,12 @@ void option_front_end(CLI::App& command, Options& options) {
       ->option_text("host|rtl")
       ->check(CLI::IsMember({"host", "rtl"}))
       ->type_name("WHO");
+}
+
+bool give_front_end(const Options& options, Config& config) {
+  if (options.level != Level::polygons || config.active > 0) return false;
+  config.active = kUsualActive;
+  return true;
 }
 
 void option_threads(CLI::App& command, Options& options) {
@@ -249,11 +259,15 @@ void option_level(CLI::App& command, Options& options) {
       ->type_name("LEVEL");
 }
 
-std::string name_of(Level level) {
-  for (const auto& [name, value] : levels())
+static std::string name_in(const std::map<std::string, Level>& names, Level level) {
+  for (const auto& [name, value] : names)
     if (value == level) return name;
   return {};
 }
+
+std::string name_of(Level level) { return name_in(levels(), level); }
+
+std::string front_end_of(Level level) { return name_in(front_ends(), level); }
 
 void option_fault(CLI::App& command, std::string& fault) {
   command

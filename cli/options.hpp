@@ -93,5 +93,9 @@ void option_outside(CLI::App& command, Options& options);  // --allow-outside
 void option_fault(CLI::App& command, std::string& fault);
 /// --front-end: who makes spans of polygons.
 void option_front_end(CLI::App& command, Options& options);
+std::string front_end_of(Level level);  // as --front-end has it
+/// Gives the core of frames at the polygon level a front end, of kUsualActive polygons, if the configuration has none.
+/// Returns whether it did.
+bool give_front_end(const Options& options, Config& config);
 
 }  // namespace kage::cli

@@ -128,6 +128,7 @@ class Source : public FrameSource {
   void open_random(const Options& options, verif::Manner manner);
   void open_scene(const Options& options);
   void load_scene(const Options& options);
+  void add_front_end(const Options& options);
 
   Source() = default;
   void open_frames();

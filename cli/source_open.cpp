@@ -102,8 +102,8 @@ void Source::open_random(const Options& options, verif::Manner manner) {
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
   refuse(options.allow_outside, "--allow-outside", "need no files");
   config_ = load_config(options.config.empty() ? "default" : options.config);
-  if (options.level == Level::polygons && config_.config.active == 0) config_.config.active = kUsualActive;
   if (options.config.empty()) notes_.push_back(fmt::format("configuration: {}", config_.name));
+  add_front_end(options);
   name_ = options.input;
   std::replace(name_.begin(), name_.end(), ':', '_');
   frames_ = options.frames > 0 ? options.frames : kRandomFrames;
@@ -149,9 +149,14 @@ NamedConfig stream_config(const Options& options, const StreamFile& stream) {
 
 void Source::open_scene(const Options& options) {
   load_scene(options);
-  if (options.level == Level::polygons && config_.config.active == 0) config_.config.active = kUsualActive;
+  add_front_end(options);
   open_frames();
   remarks_.emplace(config_.config, options.size, options.cull);
+}
+
+void Source::add_front_end(const Options& options) {
+  if (give_front_end(options, config_.config))
+    notes_.push_back(fmt::format("ACTIVE: {} polygons at once, since {} has no front end", kUsualActive, config_.name));
 }
 
 void Source::load_scene(const Options& options) {

@@ -67,8 +67,11 @@ class PackFrames {
   /// behind each other.
   [[nodiscard]] bool settles(int i) const { return i < sound() + static_cast<int>(malformed_.size()); }
   [[nodiscard]] std::string what(int i) const {
-    if (i >= sound())
-      return fmt::format("malformed: {}", kErrorNames.at(static_cast<std::size_t>(damaged(i).status.error)));
+    if (i >= sound()) {
+      const vectors::MalformedFrame& f = damaged(i);
+      return fmt::format("malformed{}: {}", f.level == Level::polygons ? ", of polygons" : "",
+                         kErrorNames.at(static_cast<std::size_t>(f.status.error)));
+    }
     const int from = chosen_.empty() ? i : chosen(i).from;
     return fmt::format("{}, frame {}", source_.name(), from);
   }

@@ -2,7 +2,8 @@
 // Polygons to spans: tokens of a frame at the polygon level in, tokens of the span level out (docs/stream.md, "The
 // polygon level"). Frames at the span level pass as they are.
 //
-//   token_* -> queue, and of EDGE -> hls_edge_setup -> head -> merge -> polygon_walk -> queue -> volume_ends -> token_*
+//   token_* -> queue -> polygon_token -> merge -> polygon_walk -> queue -> volume_ends -> token_*
+//   and of EDGE -> hls_edge_setup -> queue -> merge           its edge on the line
 //   active_list -> merge, polygon_walk -> active_list         polygons that cross the line, by place
 //
 // How: the line's polygons lie in active_list by place, and so do the tokens that the line brings. merge compares the
@@ -69,17 +70,15 @@ module front_end #(
   localparam int Under = 16;  // items between merge and volume_ends: more than that takes clocks
   localparam int InBits = IN_WORDS * 32;
   localparam int OutBits = OUT_WORDS * 32;
-  localparam int EndLineBits = 17;
-  localparam logic [EndLineBits-1:0] NoEnd = 17'h0FFFF;
+  localparam logic [EndLineBits-1:0] NoEnd = {1'b0, {EndLineBits - 1{1'b1}}};
 
   // ---- dropping ----------------------------------------------------------------------------------------------------
   // From the clock behind drop_i until the reader drops too and the edges on their way have come, everything here is
   // emptied.
-  logic dropping_q, owed_q, flush, ended_q, push, edge_in, edge_out;
+  logic dropping_q, owed_q, ended_q, push, edge_in, edge_out;
   logic [4:0] edges_q;  // on their way
   flags_t in_flags;
   assign in_flags = token_flags_i;
-  assign flush = dropping_q;
   assign drop_o = dropping_q && owed_q && token_valid_i && !in_flags.ends;
   assign dropping_o = dropping_q || dropping_i;
   always_ff @(posedge clk_i) begin
@@ -128,7 +127,7 @@ module front_end #(
       .DEPTH(Depth)
   ) u_tokens (
       .clk_i,
-      .rst_ni     (rst_ni && !flush),
+      .rst_ni     (rst_ni && !dropping_q),
       .in_valid_i (push),
       .in_ready_o (queue_ready),
       .in_data_i  ({token_flags_i, token_i}),
@@ -140,7 +139,7 @@ module front_end #(
       .BITS(InBits + FlagsBits)
   ) u_next (
       .clk_i,
-      .rst_ni     (rst_ni && !flush),
+      .rst_ni     (rst_ni && !dropping_q),
       .in_valid_i (queue_there),
       .in_ready_o (queue_taken),
       .in_data_i  (queue_first),
@@ -164,11 +163,11 @@ module front_end #(
       .bottom_x_i (token_i[EdgeBottomXLsb+:SubpixelBits]),
       .bottom_y_i (token_i[EdgeBottomYLsb+:SubpixelBits]),
       .line_i     (line_in_q),
-      .x_o        (edge_made[0+:17]),
-      .step_o     (edge_made[17+:17]),
-      .rest_o     (edge_made[34+:24]),
-      .rest_step_o(edge_made[58+:24]),
-      .dy_o       (edge_made[82+:24])
+      .x_o        (edge_made[WalkedEdgeXAt+:CrossingBits]),
+      .step_o     (edge_made[WalkedEdgeStepAt+:CrossingBits]),
+      .rest_o     (edge_made[WalkedEdgeRestAt+:EdgeRestBits]),
+      .rest_step_o(edge_made[WalkedEdgeRestStepAt+:EdgeRestBits]),
+      .dy_o       (edge_made[WalkedEdgeDyAt+:EdgeRestBits])
   );
   // It has room for all edges, since each has its token in the queue.
   stream_fifo #(
@@ -176,7 +175,7 @@ module front_end #(
       .DEPTH(Depth)
   ) u_edges (
       .clk_i,
-      .rst_ni     (rst_ni && !flush),
+      .rst_ni     (rst_ni && !dropping_q),
       .in_valid_i (edge_out),
       .in_ready_o (edge_room),
       .in_data_i  (edge_made),
@@ -188,7 +187,7 @@ module front_end #(
       .BITS(WalkedEdgeBits)
   ) u_edge_next (
       .clk_i,
-      .rst_ni     (rst_ni && !flush),
+      .rst_ni     (rst_ni && !dropping_q),
       .in_valid_i (edge_there),
       .in_ready_o (edge_taken),
       .in_data_i  (edge_first),
@@ -197,80 +196,31 @@ module front_end #(
       .out_data_o (walked_edge)
   );
 
-  // ---- a token on its way to be the head ---------------------------------------------------------------------------
-  // What is told of a token by itself and by those before it.
-  typedef struct packed {
-    logic at;
-    logic polygon;
-    logic gradient;
-    logic an_edge;
-    logic eol;
-    logic span;
-    logic at_once;  // it is none of these
-    logic of_level;
-    logic misplaced;  // whether a polygon waits for its edges or not
-    logic flushes;  // it lets the list's polygons go first, where no polygon waits for its edges
-    logic side;
-    logic last;
-    logic [EndLineBits-1:0] end_line;  // of an EDGE: the line behind its last
-    logic goes_on;  // that is behind the next line
-  } judged_t;
-  judged_t coming, is_q;
-  logic head_q, head_ready;
-  logic [InBits-1:0] token_q;
-  flags_t flags_q;
-  logic placed_q;  // the line has had an AT, up to the head
-  logic [PlaceBits-1:0] place_q;  // the last one's
-  logic [EndLineBits-1:0] line_below_q;  // the one behind that of the token that comes next
-  logic [KindBits-1:0] kind;
-  logic has_layer, has_light;
-  logic [PlaceBits-1:0] place;
-  logic [1:0] layer, layer_of_span;
-  logic [SubpixelBits:0] past_bottom;
-  assign next_ready = !head_q || head_ready;
-  assign kind = next[KindBits-1:0];
-  assign place = next[AtRankLsb+:PlaceBits];
-  assign layer = place[PlaceBits-1-:2];
-  assign has_layer = layer == 2'd0 || (layer == 2'd1 && DSF_BITS > 0) || (layer == 2'd2 && TRANSLUCENCY > 0);
-  assign has_light = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:3]} < 4'(LIGHTS);
-  assign layer_of_span = kind == KindOp ? 2'd0 : kind == KindTp ? 2'd2 : 2'd1;
-  assign past_bottom = {next[EdgeBottomYLsb+SubpixelBits-1], next[EdgeBottomYLsb+:SubpixelBits]} + 25'd127;
-  always_comb begin
-    coming.of_level = polygons_in_q && !next_flags.header && !next_flags.cut && !next_flags.lacking;
-    coming.at = coming.of_level && kind == KindAt;
-    coming.polygon = coming.of_level && kind == KindPolygon;
-    coming.gradient = coming.of_level && SMOOTH > 0 && kind == KindGradient;
-    coming.an_edge = coming.of_level && kind == KindEdge;
-    coming.eol = coming.of_level && kind == KindEol;
-    coming.span = coming.of_level && kind_has_range(kind) && kind != KindPolygon && kind != KindEdge;
-    coming.at_once = !(coming.at || coming.polygon || coming.gradient || coming.an_edge || coming.eol || coming.span);
-    coming.misplaced = 1'b0;
-    if (coming.at && (!has_layer || !has_light || (placed_q && place < place_q))) coming.misplaced = 1'b1;
-    if ((coming.polygon || coming.an_edge || coming.span) && !placed_q) coming.misplaced = 1'b1;
-    if (coming.span && place_q[PlaceBits-1-:2] != layer_of_span) coming.misplaced = 1'b1;
-    if (coming.gradient && next[GradientChannelLsb+:2] >= 2'(CHANNELS)) coming.misplaced = 1'b1;
-    coming.flushes = (coming.polygon || coming.span || coming.eol || coming.an_edge) && !coming.misplaced;
-    coming.side = next[EdgeSideLsb];
-    coming.last = next[EdgeLastLsb];
-    coming.end_line = past_bottom[SubpixelBits-:EndLineBits];
-    coming.goes_on = $signed(coming.end_line) > $signed(line_below_q);
-  end
-  always_ff @(posedge clk_i) begin
-    if (!rst_ni || flush) head_q <= 1'b0;
-    else if (next_ready) head_q <= next_valid;
-    if (next_ready) begin
-      token_q <= next;
-      flags_q <= next_flags;
-      is_q <= coming;
-      if (next_valid) begin
-        if (next_flags.header || coming.eol) placed_q <= 1'b0;
-        else if (coming.at) placed_q <= 1'b1;
-        if (coming.at) place_q <= place;
-        if (next_flags.header) line_below_q <= EndLineBits'(1);
-        else if (coming.eol) line_below_q <= line_below_q + 1'b1;
-      end
-    end
-  end
+  // ---- the head ----------------------------------------------------------------------------------------------------
+  logic head_valid, head_ready;
+  logic [InBits-1:0] head_token;
+  flags_t head_flags;
+  role_t head;
+  logic [PlaceBits-1:0] head_place;  // of the line's last AT
+  polygon_token #(
+      .WORDS(IN_WORDS),
+      `include "generated/kage_pixel_param_map.svh"
+  ) u_head (
+      .clk_i,
+      .rst_ni,
+      .flush_i    (dropping_q),
+      .polygons_i (polygons_in_q),
+      .in_valid_i (next_valid),
+      .in_ready_o (next_ready),
+      .token_i    (next),
+      .flags_i    (next_flags),
+      .out_valid_o(head_valid),
+      .out_ready_i(head_ready),
+      .token_o    (head_token),
+      .flags_o    (head_flags),
+      .role_o     (head),
+      .place_o    (head_place)
+  );
 
   // ---- the frame and the line, as the head finds them --------------------------------------------------------------
   logic [X_BITS-1:0] width_q;
@@ -282,7 +232,7 @@ module front_end #(
   logic end_have_q, end_goes_on_q;
   logic [EndLineBits-1:0] end_q;
   logic [ ActiveBits-1:0] fresh_q;  // the POLYGON's look and planes
-  assign index = flags_q.header ? '0 : index_q + 32'd1;
+  assign index = head_flags.header ? '0 : index_q + 32'd1;
 
   // ---- merge -------------------------------------------------------------------------------------------------------
   logic list_valid, list_left, list_room, list_before, list_same, list_goes_on, swap_ready, list_pop, keep, swap, clear;
@@ -290,56 +240,57 @@ module front_end #(
   logic misplaced, flushing, completes, fault, item, room_q;
   logic gives_fresh, gives_token, made_in;
   logic [CodeBits-1:0] code;
-  assign misplaced = is_q.misplaced || (is_q.of_level && begun_q && !is_q.an_edge && !is_q.gradient) ||
-      (is_q.gradient && !begun_q);
+  assign misplaced = head.misplaced || (head.of_level && begun_q && !head.edge_token && !head.gradient) ||
+      (head.gradient && !begun_q);
   // The list's polygons that come before the token are given first.
-  assign flushing = head_q && is_q.flushes && !begun_q && list_left &&
-      (!list_valid || is_q.eol || list_before || (is_q.polygon && list_same));
-  assign completes = is_q.an_edge && begun_q && have_q[!is_q.side];
+  assign flushing = head_valid && head.flushes && !begun_q && list_left &&
+      (!list_valid || head.eol || list_before || (head.polygon && list_same));
+  assign completes = head.edge_token && begun_q && have_q[!head.side];
   always_comb begin
     fault = misplaced;
     code  = ErrPlace;
-    if (is_q.an_edge && !begun_q && (!list_valid || !list_same)) fault = 1'b1;
+    if (head.edge_token && !begun_q && (!list_valid || !list_same)) fault = 1'b1;
     if (completes && !list_room) begin
       fault = 1'b1;
       code  = ErrActiveFull;
     end
   end
   // All tokens wait for room, though some need none: whether one is at fault is known late.
-  assign head_ready = head_q && room_q && !flushing && (!is_q.an_edge || edge_valid) && (!is_q.eol || swap_ready);
+  assign head_ready = head_valid && room_q && !flushing && (!head.edge_token || edge_valid) &&
+      (!head.eol || swap_ready);
   assign gives_fresh = head_ready && completes && !fault;
-  assign gives_token = head_ready && (is_q.at_once || is_q.eol || is_q.span || fault);
+  assign gives_token = head_ready && (head.at_once || head.eol || head.span || fault);
   assign list_pop = flushing && list_valid && room_q;
   assign made_in = list_pop || gives_fresh;
   assign item = made_in || gives_token;
-  assign edge_ready = head_ready && is_q.an_edge;
-  assign swap = head_ready && is_q.eol && !fault;
-  assign clear = flush || (head_ready && flags_q.header);
+  assign edge_ready = head_ready && head.edge_token;
+  assign swap = head_ready && head.eol && !fault;
+  assign clear = dropping_q || (head_ready && head_flags.header);
 
   // The polygon that goes to the walk.
   logic fresh, goes_on;
   logic [ActiveBits-1:0] polygon;
-  assign fresh   = is_q.an_edge && begun_q;
-  assign goes_on = fresh && is_q.last ? is_q.goes_on : end_have_q ? end_goes_on_q : fresh || list_goes_on;
+  assign fresh   = head.edge_token && begun_q;
+  assign goes_on = fresh && head.last ? head.goes_on : end_have_q ? end_goes_on_q : fresh || list_goes_on;
   assign keep    = goes_on && made_in;
   always_comb begin
     polygon = fresh ? fresh_q : list;
-    if (fresh && is_q.last) polygon[ActiveEndAt+:EndLineBits] = is_q.end_line;
+    if (fresh && head.last) polygon[ActiveEndAt+:EndLineBits] = head.end_line;
     else if (end_have_q) polygon[ActiveEndAt+:EndLineBits] = end_q;
     else if (fresh) polygon[ActiveEndAt+:EndLineBits] = NoEnd;
     if (have_q[0] || fresh) polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = side_q[0];
     if (have_q[1] || fresh) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = side_q[1];
     if (fresh) begin
-      polygon[ActivePlaceAt+:PlaceBits] = place_q;
-      if (is_q.side) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = walked_edge;
+      polygon[ActivePlaceAt+:PlaceBits] = head_place;
+      if (head.side) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = walked_edge;
       else polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = walked_edge;
     end
   end
 
   always_ff @(posedge clk_i) begin
     if (head_ready) index_q <= index;
-    if (head_ready && flags_q.header) begin
-      width_q <= token_q[HeaderWidthLsb+:X_BITS];
+    if (head_ready && head_flags.header) begin
+      width_q <= head_token[HeaderWidthLsb+:X_BITS];
       next_line_q <= EndLineBits'(1);
     end else if (swap) begin
       next_line_q <= next_line_q + 1'b1;
@@ -349,43 +300,43 @@ module front_end #(
       have_q <= 2'b00;
       end_have_q <= 1'b0;
     end else begin
-      if (head_ready && is_q.polygon) begun_q <= 1'b1;
+      if (head_ready && head.polygon) begun_q <= 1'b1;
       else if (head_ready && completes) begun_q <= 1'b0;
-      if (list_pop || (head_ready && (is_q.polygon || completes))) begin
+      if (list_pop || (head_ready && (head.polygon || completes))) begin
         have_q <= 2'b00;
         end_have_q <= 1'b0;
-      end else if (head_ready && is_q.an_edge) begin
-        have_q[is_q.side] <= 1'b1;
-        if (is_q.last) end_have_q <= 1'b1;
+      end else if (head_ready && head.edge_token) begin
+        have_q[head.side] <= 1'b1;
+        if (head.last) end_have_q <= 1'b1;
       end
     end
     // Written in each clock in which the token waits, because whether it leaves is known late. That loses nothing: a
     // polygon of the list that has yet to take its side from here goes first, so list_same is low until it has.
-    if (head_q && is_q.an_edge && (begun_q || (list_valid && list_same))) begin
-      side_q[is_q.side] <= walked_edge;
-      if (is_q.last) begin
-        end_q <= is_q.end_line;
-        end_goes_on_q <= is_q.goes_on;
+    if (head_valid && head.edge_token && (begun_q || (list_valid && list_same))) begin
+      side_q[head.side] <= walked_edge;
+      if (head.last) begin
+        end_q <= head.end_line;
+        end_goes_on_q <= head.goes_on;
       end
     end
-    if (head_q && is_q.polygon) begin
-      fresh_q[ActiveLookAt+:LookBits]   <= token_q[PolygonClassLsb+:LookBits];
-      fresh_q[ActiveValueAt+:PlaneBits] <= token_q[PolygonValueLsb+:PlaneBits];
-      fresh_q[ActiveRightAt+:PlaneBits] <= token_q[PolygonRightLsb+:PlaneBits];
-      fresh_q[ActiveDownAt+:PlaneBits]  <= token_q[PolygonDownLsb+:PlaneBits];
+    if (head_valid && head.polygon) begin
+      fresh_q[ActiveLookAt+:LookBits]   <= head_token[PolygonClassLsb+:LookBits];
+      fresh_q[ActiveValueAt+:PlaneBits] <= head_token[PolygonValueLsb+:PlaneBits];
+      fresh_q[ActiveRightAt+:PlaneBits] <= head_token[PolygonRightLsb+:PlaneBits];
+      fresh_q[ActiveDownAt+:PlaneBits]  <= head_token[PolygonDownLsb+:PlaneBits];
       if (SMOOTH > 0) begin
         for (int c = 0; c < CHANNELS; c++) begin
           fresh_q[ActiveGradientsAt+3*c*ColorPlaneBits+:ColorPlaneBits] <=
-              ColorPlaneBits'(token_q[PolygonColorLsb+8*c+:8]) << PlaneFrac;
+              ColorPlaneBits'(head_token[PolygonColorLsb+8*c+:8]) << PlaneFrac;
           fresh_q[ActiveGradientsAt+(3*c+1)*ColorPlaneBits+:2*ColorPlaneBits] <= '0;
         end
       end
     end
-    if (head_q && is_q.gradient) begin
+    if (head_valid && head.gradient) begin
       for (int c = 0; c < CHANNELS; c++) begin
-        if (token_q[GradientChannelLsb+:2] == 2'(c))
+        if (head_token[GradientChannelLsb+:2] == 2'(c))
           fresh_q[ActiveGradientsAt+3*c*ColorPlaneBits+:3*ColorPlaneBits] <=
-              token_q[GradientValueLsb+:3*ColorPlaneBits];
+              head_token[GradientValueLsb+:3*ColorPlaneBits];
       end
     end
   end
@@ -404,8 +355,8 @@ module front_end #(
       .clk_i,
       .rst_ni,
       .clear_i        (clear),
-      .place_i        (place_q),
-      .renew_i        (head_q && is_q.at),
+      .place_i        (head_place),
+      .renew_i        (head_valid && head.at_token),
       .line_i         (next_line_q),
       .polygon_valid_o(list_valid),
       .polygon_o      (list),
@@ -430,12 +381,12 @@ module front_end #(
   ) u_walk (
       .clk_i,
       .rst_ni,
-      .flush_i     (flush),
+      .flush_i     (dropping_q),
       .width_i     (width_q),
       .in_valid_i  (item),
       .in_made_i   (made_in),
       .in_keep_i   (goes_on),
-      .in_swap_i   (gives_token && is_q.eol && !fault),
+      .in_swap_i   (gives_token && head.eol && !fault),
       .polygon_i   (polygon),
       .write_o     (list_write),
       .next_o      (next_polygon),
@@ -459,19 +410,19 @@ module front_end #(
   localparam int UnderBits = $clog2(Under + 1);
   logic [UnderBits-1:0] under_q;
   always_comb begin
-    item_flags = flags_q;
+    item_flags = head_flags;
     item_flags.fault = gives_token && fault ? code : ErrNone;
   end
-  assign whole = is_q.span && !fault && token_q[KindBits-1:0] == KindNc &&
-      token_q[RangeXlLsb+:X_BITS] == '0 && token_q[RangeXrLsb+:X_BITS] == width_q;
-  assign family = flushing ? list[ActivePlaceAt+RankBits+:FamilyBits] : place_q[RankBits+:FamilyBits];
-  assign item_in = {gives_token && (is_q.at_once || fault), whole, family, index, item_flags, token_q[OutBits-1:0]};
+  assign whole = head.span && !fault && head_token[KindBits-1:0] == KindNc &&
+      head_token[RangeXlLsb+:X_BITS] == '0 && head_token[RangeXrLsb+:X_BITS] == width_q;
+  assign family = flushing ? list[ActivePlaceAt+RankBits+:FamilyBits] : head_place[RankBits+:FamilyBits];
+  assign item_in = {gives_token && (head.at_once || fault), whole, family, index, item_flags, head_token[OutBits-1:0]};
   stream_fifo #(
       .BITS (1 + ItemBits),
       .DEPTH(Under)
   ) u_items (
       .clk_i,
-      .rst_ni     (rst_ni && !flush),
+      .rst_ni     (rst_ni && !dropping_q),
       .in_valid_i (item),
       .in_ready_o (item_room),
       .in_data_i  ({made_in, item_in}),
@@ -484,7 +435,7 @@ module front_end #(
       .DEPTH(Under)
   ) u_spans (
       .clk_i,
-      .rst_ni     (rst_ni && !flush),
+      .rst_ni     (rst_ni && !dropping_q),
       .in_valid_i (walk_valid),
       .in_ready_o (made_room),
       .in_data_i  (walked),
@@ -494,7 +445,7 @@ module front_end #(
   );
   assign out_next = made_there && item_ready;
   always_ff @(posedge clk_i) begin
-    if (!rst_ni || flush) begin
+    if (!rst_ni || dropping_q) begin
       under_q <= '0;
       room_q  <= 1'b1;
     end else begin
@@ -510,7 +461,7 @@ module front_end #(
   ) u_ends (
       .clk_i,
       .rst_ni,
-      .flush_i      (flush),
+      .flush_i      (dropping_q),
       .width_i      (width_q),
       .item_valid_i (made_there),
       .item_ready_o (item_ready),
@@ -530,7 +481,7 @@ module front_end #(
       .BITS(OutBits + FlagsBits + 32)
   ) u_out (
       .clk_i,
-      .rst_ni     (rst_ni && !flush),
+      .rst_ni     (rst_ni && !dropping_q),
       .in_valid_i (made_valid),
       .in_ready_o (made_ready),
       .in_data_i  ({made_flags, made_index, made}),
@@ -538,19 +489,19 @@ module front_end #(
       .out_ready_i(out_ready),
       .out_data_o ({out_flags, token_index_o, token_o})
   );
-  assign out_valid = out_waits && !flush;
+  assign out_valid = out_waits && !dropping_q;
   assign token_valid_o = out_valid;
   assign token_flags_o = out_flags;
   assign out_ready = token_ready_i;
 
-  assign busy_o = queue_there || next_valid || head_q || under_q != '0 || ending || made_valid || out_valid ||
+  assign busy_o = queue_there || next_valid || head_valid || under_q != '0 || ending || made_valid || out_valid ||
       dropping_q;
   assign moving_o = push || (queue_there && queue_taken) || (next_valid && next_ready) || head_ready || list_pop ||
       (list_left && !list_valid) || walk_busy || ending || (dropping_q && (!owed_q || token_valid_i)) ||
       edges_q != '0 || (edge_there && edge_taken) || !swap_ready || (!room_q && under_q < UnderBits'(Under));
 
   logic unused_bits;
-  assign unused_bits = ^{token_q, token_i, in_flags, past_bottom};
+  assign unused_bits = ^{head_token, token_i, in_flags};
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
@@ -559,15 +510,15 @@ module front_end #(
       // 1. Only a token that is taken and does not end its frame asks for the rest to be dropped.
       assert (!drop_i || (out_valid && out_ready && !out_flags.ends));
       // 2. There is room for what goes beside.
-      assert (!edge_out || edge_room || flush);
+      assert (!edge_out || edge_room || dropping_q);
       assert (!edge_in || edges_q != '1);
-      assert (!room_q || flush || under_q < UnderBits'(Under));
+      assert (!room_q || dropping_q || under_q < UnderBits'(Under));
       assert (!item || item_room);
       assert (!walk_valid || made_room);
       assert (!made_there || item_there);
       // 3. A header finds nothing of the frame before in the walk, so nothing comes to be written to the list that it
       //    clears.
-      assert (!(head_q && flags_q.header) || (under_q == '0 && !walk_busy));
+      assert (!(head_valid && head_flags.header) || (under_q == '0 && !walk_busy));
     end
   end
 `endif

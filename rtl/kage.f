@@ -22,6 +22,7 @@ rtl/pixel_core.sv
 rtl/pixel_loads.sv
 rtl/pixel_systolic.sv
 rtl/plane_at.sv
+rtl/polygon_token.sv
 rtl/polygon_walk.sv
 rtl/ram_1r1w.sv
 rtl/registers.sv

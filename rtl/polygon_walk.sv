@@ -37,8 +37,6 @@ module polygon_walk #(
   `include "generated/kage_layout.svh"
   `include "generated/kage_buses.svh"
 
-  localparam int CrossBits = 17;  // of a crossing, as hls_edge_step has it
-  localparam int RestBits = 24;
   localparam int SpanBits = X_BITS + 1;
 
   // ---- what is where -----------------------------------------------------------------------------------------------
@@ -59,16 +57,16 @@ module polygon_walk #(
 
   // ---- 1: crossings within the line, and edges one line further down -----------------------------------------------
   // The kernels' pipelines are always full and move each clock, so that they need no valid.
-  function automatic logic [SpanBits-1:0] in_line(input logic [CrossBits-1:0] x, input logic [X_BITS-1:0] width);
-    if (x[CrossBits-1]) in_line = '0;
-    else if (x > CrossBits'(width)) in_line = SpanBits'(width);
+  function automatic logic [SpanBits-1:0] in_line(input logic [CrossingBits-1:0] x, input logic [X_BITS-1:0] width);
+    if (x[CrossingBits-1]) in_line = '0;
+    else if (x > CrossingBits'(width)) in_line = SpanBits'(width);
     else in_line = SpanBits'(x);
   endfunction
 
   logic [2*WalkedEdgeBits-1:0] stepped;
   logic [SpanBits-1:0] down, up;
-  assign down = in_line(polygon_q[ActiveDownEdgeAt+:CrossBits], width_i);
-  assign up   = in_line(polygon_q[ActiveUpEdgeAt+:CrossBits], width_i);
+  assign down = in_line(polygon_q[ActiveDownEdgeAt+WalkedEdgeXAt+:CrossingBits], width_i);
+  assign up   = in_line(polygon_q[ActiveUpEdgeAt+WalkedEdgeXAt+:CrossingBits], width_i);
   for (genvar side = 0; side < 2; side++) begin : gen_edges
     localparam int At = side == 0 ? ActiveDownEdgeAt : ActiveUpEdgeAt;
     localparam int Out = side * WalkedEdgeBits;
@@ -80,16 +78,16 @@ module polygon_walk #(
         .in_ready_o (unused_ready),
         .out_valid_o(unused_valid),
         .out_ready_i(1'b1),
-        .x_i        (polygon_q[At+:CrossBits]),
-        .step_i     (polygon_q[At+CrossBits+:CrossBits]),
-        .rest_i     (polygon_q[At+2*CrossBits+:RestBits]),
-        .rest_step_i(polygon_q[At+2*CrossBits+RestBits+:RestBits]),
-        .dy_i       (polygon_q[At+2*CrossBits+2*RestBits+:RestBits]),
-        .x_o        (stepped[Out+:CrossBits]),
-        .step_o     (stepped[Out+CrossBits+:CrossBits]),
-        .rest_o     (stepped[Out+2*CrossBits+:RestBits]),
-        .rest_step_o(stepped[Out+2*CrossBits+RestBits+:RestBits]),
-        .dy_o       (stepped[Out+2*CrossBits+2*RestBits+:RestBits])
+        .x_i        (polygon_q[At+WalkedEdgeXAt+:CrossingBits]),
+        .step_i     (polygon_q[At+WalkedEdgeStepAt+:CrossingBits]),
+        .rest_i     (polygon_q[At+WalkedEdgeRestAt+:EdgeRestBits]),
+        .rest_step_i(polygon_q[At+WalkedEdgeRestStepAt+:EdgeRestBits]),
+        .dy_i       (polygon_q[At+WalkedEdgeDyAt+:EdgeRestBits]),
+        .x_o        (stepped[Out+WalkedEdgeXAt+:CrossingBits]),
+        .step_o     (stepped[Out+WalkedEdgeStepAt+:CrossingBits]),
+        .rest_o     (stepped[Out+WalkedEdgeRestAt+:EdgeRestBits]),
+        .rest_step_o(stepped[Out+WalkedEdgeRestStepAt+:EdgeRestBits]),
+        .dy_o       (stepped[Out+WalkedEdgeDyAt+:EdgeRestBits])
     );
   end
 
@@ -150,7 +148,7 @@ module polygon_walk #(
       .value_i (walked_q[ActiveValueAt+:PlaneBits]),
       .right_i (walked_q[ActiveRightAt+:PlaneBits]),
       .down_i  (walked_q[ActiveDownAt+:PlaneBits]),
-      .xl_i    (CrossBits'(xl_q)),
+      .xl_i    (CrossingBits'(xl_q)),
       .single_i(single_q),
       .start_o (z),
       .step_o  (dz)
@@ -172,7 +170,7 @@ module polygon_walk #(
           .value_i (walked_q[At+:ColorPlaneBits]),
           .right_i (walked_q[At+ColorPlaneBits+:ColorPlaneBits]),
           .down_i  (walked_q[At+2*ColorPlaneBits+:ColorPlaneBits]),
-          .xl_i    (CrossBits'(xl_q)),
+          .xl_i    (CrossingBits'(xl_q)),
           .single_i(single_q),
           .start_o (color[c*SmoothBits+:SmoothBits]),
           .step_o  (dcolor[c*SmoothBits+:SmoothBits])

@@ -108,7 +108,8 @@ DERIVED = {
     "pixel_bits": lambda c: c.Z_BITS + DERIVED["rgb_bits"](c) + DERIVED["class_field_bits"](c) + c.DSF_BITS + c.FSF + DERIVED["tally_bits"](c),  # a pixel's state
     "exit_bits": lambda c: DERIVED["rgb_bits"](c) + 1 + DERIVED["exit_class_bits"](c) + DERIVED["tally_bits"](c) + DERIVED["dark_bits"](c),  # a pixel that leaves
     "entry_bits": lambda c: c.ORDER_BITS + DERIVED["class_field_bits"](c) + DERIVED["depth_bits"](c) + DERIVED["rgb_bits"](c),  # a face in its unit's table, as FACE has it from index on
-    "active_bits": lambda c: DERIVED["place_bits"](c) + 17 + DERIVED["walked_edge_bits"](c) + DERIVED["walked_edge_bits"](c) + DERIVED["look_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["gradients_bits"](c),  # a polygon that the front end keeps from line to line
+    "walked_edge_bits": lambda c: DERIVED["crossing_bits"](c) + DERIVED["crossing_bits"](c) + DERIVED["edge_rest_bits"](c) + DERIVED["edge_rest_bits"](c) + DERIVED["edge_rest_bits"](c),  # an edge on its way down, as hls/kernels/edge.hpp has it
+    "active_bits": lambda c: DERIVED["place_bits"](c) + DERIVED["end_line_bits"](c) + DERIVED["walked_edge_bits"](c) + DERIVED["walked_edge_bits"](c) + DERIVED["look_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["gradients_bits"](c),  # a polygon that the front end keeps from line to line
     "point_bits": lambda c: DERIVED["class_field_bits"](c) + DERIVED["rgb_bits"](c) + c.ORDER_BITS + c.Z_BITS,  # a pixel in the compare tree, with its key highest
 }
 
@@ -253,7 +254,7 @@ TEXTS = {
 # name: (code, meaning)
 ERRORS = {
     "NONE": (0, "no error"),
-    "HEADER": (1, "magic or version is not this core's"),
+    "HEADER": (1, "magic or version is not this core's: version 2, the polygon level, needs a front end (ACTIVE)"),
     "SIZE": (2, "width or height is 0, or more than the core has"),
     "PARAMS": (3, "param_hash is not this core's"),
     "KIND": (4, "kind 0, or a token that the configuration lacks"),

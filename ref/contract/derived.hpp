@@ -100,8 +100,10 @@ constexpr int pixel_bits(const Config& c) { return c.z_bits + rgb_bits(c) + clas
 constexpr int exit_bits(const Config& c) { return rgb_bits(c) + 1 + exit_class_bits(c) + tally_bits(c) + dark_bits(c); }
 /// a face in its unit's table, as FACE has it from index on
 constexpr int entry_bits(const Config& c) { return c.order_bits + class_field_bits(c) + depth_bits(c) + rgb_bits(c); }
+/// an edge on its way down, as hls/kernels/edge.hpp has it
+constexpr int walked_edge_bits(const Config& /*c*/) { return kCrossingBits + kCrossingBits + kEdgeRestBits + kEdgeRestBits + kEdgeRestBits; }
 /// a polygon that the front end keeps from line to line
-constexpr int active_bits(const Config& c) { return kPlaceBits + 17 + kWalkedEdgeBits + kWalkedEdgeBits + look_bits(c) + plane_bits(c) + plane_bits(c) + plane_bits(c) + gradients_bits(c); }
+constexpr int active_bits(const Config& c) { return kPlaceBits + kEndLineBits + walked_edge_bits(c) + walked_edge_bits(c) + look_bits(c) + plane_bits(c) + plane_bits(c) + plane_bits(c) + gradients_bits(c); }
 /// a pixel in the compare tree, with its key highest
 constexpr int point_bits(const Config& c) { return class_field_bits(c) + rgb_bits(c) + c.order_bits + c.z_bits; }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "contract/derived.hpp"
 #include "kage/token.hpp"
@@ -64,6 +65,13 @@ struct WalkedPlane {
   }
 };
 
+// The widths that rtl/defs/kage.yaml gives an edge are the kernels'.
+static_assert(std::is_same_v<decltype(hls::Edge::x), hw::s<kCrossingBits>>);
+static_assert(std::is_same_v<decltype(hls::Edge::step), hw::s<kCrossingBits>>);
+static_assert(std::is_same_v<decltype(hls::Edge::rest), hw::u<kEdgeRestBits>>);
+static_assert(std::is_same_v<decltype(hls::Edge::rest_step), hw::u<kEdgeRestBits>>);
+static_assert(std::is_same_v<decltype(hls::Edge::dy), hw::u<kEdgeRestBits>>);
+
 /// A polygon between its first line and its last.
 struct ActivePolygon {
   Place place;
@@ -73,7 +81,7 @@ struct ActivePolygon {
   std::array<WalkedPlane, 3> color;  ///< with SMOOTH
   SpanToken look;                    ///< class, weight, alpha; without SMOOTH the colour
 
-  static constexpr int kNoEnd = 0xFFFF;
+  static constexpr int kNoEnd = (1 << (kEndLineBits - 1)) - 1;
 
   /// Of a POLYGON.
   ActivePolygon() = default;

@@ -35,7 +35,7 @@ class Place {
 
   [[nodiscard]] constexpr std::uint64_t number() const { return number_; }
   [[nodiscard]] constexpr int layer() const { return field(kLayerLsb, kLayerBits); }
-  [[nodiscard]] constexpr int light() const { return field(kLightLsb, 3); }
+  [[nodiscard]] constexpr int light() const { return field(kLightLsb, kLightPlaceBits); }
   /// The same for all faces of a volume, and for nothing else.
   [[nodiscard]] constexpr std::uint64_t volume() const { return number_ >> kVolumeLsb; }
   /// The same for all volumes of a light's sample, and for nothing else.
@@ -46,7 +46,7 @@ class Place {
  private:
   static constexpr int kVolumeLsb = kRankBits;
   static constexpr int kLightLsb = kVolumeLsb + kVolumeBits;
-  static constexpr int kSampleLsb = kLightLsb + 3;
+  static constexpr int kSampleLsb = kLightLsb + kLightPlaceBits;
   static constexpr int kLayerLsb = kSampleLsb + kSampleBits;
   static_assert(kLayerLsb + kLayerBits == kPlaceBits);
   static_assert(kLightLsb == 32);  // what a layer's one number has

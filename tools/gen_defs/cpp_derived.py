@@ -27,7 +27,8 @@ def derived(defs):
         kind = {"flag": "bool", "unsigned": "std::uint32_t"}.get(n["is"], "int")
         if n["is"] == "unsigned":
             value = f"static_cast<std::uint32_t>({value})"
-        o += [f"/// {n['doc']}", f"constexpr {kind} {n['name']}(const Config& c) {{ return {value}; }}"]
+        config = "const Config& c" if "(c)" in value or "c." in value else "const Config& /*c*/"
+        o += [f"/// {n['doc']}", f"constexpr {kind} {n['name']}({config}) {{ return {value}; }}"]
     o += ["", "/// Commands that are no token, by kinds of tokens that never become commands."]
     o += [
         f"inline constexpr Kind kCommand{camel(c['name'])} = static_cast<Kind>({c['kind']});  ///< {c['doc']}"

@@ -19,15 +19,14 @@ std::pair<bool, std::uint64_t> cost_of(const MalformedFrame& f) {
           f.words.size() + static_cast<std::uint64_t>(f.status.width) * static_cast<std::uint64_t>(f.status.height)};
 }
 
-}  // namespace
-
-std::vector<MalformedFrame> malformed_frames(const Config& config, std::uint64_t seed) {
-  const verif::RandomFrames random(config, verif::Manner::damaged, seed);
+/// The frames of a level.
+void add_malformed(std::vector<MalformedFrame>& frames, const Config& config, std::uint64_t seed, Level level) {
+  const verif::RandomFrames random(config, verif::Manner::damaged, seed, level);
   const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
   GoldenCore golden(config);
   std::map<ErrorCode, MalformedFrame> smallest;
   for (int i = 0; i < kTries; ++i) {
-    MalformedFrame f{random.words(i), {}};
+    MalformedFrame f{random.words(i), {}, level};
     f.status = golden.frame(f.words, nowhere);
     if (f.status.error == ErrorCode::NONE) continue;
     const auto known = smallest.find(f.status.error);
@@ -36,8 +35,15 @@ std::vector<MalformedFrame> malformed_frames(const Config& config, std::uint64_t
     else if (cost_of(f) < cost_of(known->second))
       known->second = std::move(f);
   }
-  std::vector<MalformedFrame> frames;
   for (auto& [code, frame] : smallest) frames.push_back(std::move(frame));
+}
+
+}  // namespace
+
+std::vector<MalformedFrame> malformed_frames(const Config& config, std::uint64_t seed) {
+  std::vector<MalformedFrame> frames;
+  add_malformed(frames, config, seed, Level::spans);
+  if (config.active > 0) add_malformed(frames, config, seed, Level::polygons);
   return frames;
 }
 

@@ -14,11 +14,13 @@ namespace kage::vectors {
 struct MalformedFrame {
   std::vector<std::uint32_t> words;
   FrameStatus status;  ///< of the golden core
+  Level level = Level::spans;
 };
 
 /// For each error that a core of this configuration can meet the smallest of many damaged frames (stimulus/damage.hpp)
 /// that has it behind its first line and before its last, else the smallest that has it, in the order of the codes;
-/// fewer where chance brought none. Follows from configuration and seed alone.
+/// fewer where chance brought none. Frames at the span level, then, for a core with a front end, as many at the polygon
+/// level. Follows from configuration and seed alone.
 std::vector<MalformedFrame> malformed_frames(const Config& config, std::uint64_t seed);
 
 }  // namespace kage::vectors

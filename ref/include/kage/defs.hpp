@@ -40,7 +40,10 @@ inline constexpr int kVolumeBits = 18;  ///< of a place: the volume in its sampl
 inline constexpr int kSampleBits = 11;  ///< of a place: the light sample
 inline constexpr int kLayerBits = 2;  ///< of a place: 0 opaque, 1 volumes, 2 translucent
 inline constexpr int kFamilyBits = 34;  ///< of a place but for its rank: the same for all of a volume
-inline constexpr int kWalkedEdgeBits = 106;  ///< of an edge on its way down, as hls/kernels/edge.hpp has it: x, step, rest, rest_step, dy
+inline constexpr int kLightPlaceBits = 3;  ///< of a place: the light, before its sample
+inline constexpr int kCrossingBits = 17;  ///< of an edge's crossing in pixels, signed, and of its whole step
+inline constexpr int kEdgeRestBits = 24;  ///< of an edge's remainders and height in subpixels
+inline constexpr int kEndLineBits = 17;  ///< of the line behind an edge's last, signed
 inline constexpr std::size_t kMostTokenWords = 10;  ///< words of the longest token of any configuration
 
 /// Place of a field in its token or header: `bits` from bit `lsb` of its words, the first word lowest.
@@ -289,7 +292,7 @@ inline constexpr std::array<std::string_view, kKinds> kKindNames{
 /// Errors of a core, the same in golden model and RTL, by the names of docs/stream.md.
 enum class ErrorCode : std::uint8_t {
   NONE = 0,  ///< no error
-  HEADER = 1,  ///< magic or version is not this core's
+  HEADER = 1,  ///< magic or version is not this core's: version 2, the polygon level, needs a front end (ACTIVE)
   SIZE = 2,  ///< width or height is 0, or more than the core has
   PARAMS = 3,  ///< param_hash is not this core's
   KIND = 4,  ///< kind 0, or a token that the configuration lacks
@@ -312,7 +315,7 @@ inline constexpr std::array<std::string_view, 15> kErrorNames{
 /// What the errors mean, by their codes.
 inline constexpr std::array<std::string_view, 15> kErrorTexts{
     "no error",
-    "magic or version is not this core's",
+    "magic or version is not this core's: version 2, the polygon level, needs a front end (ACTIVE)",
     "width or height is 0, or more than the core has",
     "param_hash is not this core's",
     "kind 0, or a token that the configuration lacks",

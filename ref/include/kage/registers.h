@@ -84,7 +84,7 @@
 #define KAGE_STALL_BEHIND_MASK 0x80000000u /**< its bits */
 
 #define KAGE_ERR_NONE 0u /**< no error */
-#define KAGE_ERR_HEADER 1u /**< magic or version is not this core's */
+#define KAGE_ERR_HEADER 1u /**< magic or version is not this core's: version 2, the polygon level, needs a front end (ACTIVE) */
 #define KAGE_ERR_SIZE 2u /**< width or height is 0, or more than the core has */
 #define KAGE_ERR_PARAMS 3u /**< param_hash is not this core's */
 #define KAGE_ERR_KIND 4u /**< kind 0, or a token that the configuration lacks */

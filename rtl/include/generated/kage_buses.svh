@@ -20,6 +20,24 @@ typedef struct packed {
   logic [CodeBits-1:0] fault;  // what front_end has against it
 } flags_t;
 
+// What a token of a frame is to the front end: from polygon_token to front_end.
+typedef struct packed {
+  logic at_token;  // an AT
+  logic polygon;  // a POLYGON
+  logic gradient;  // a GRADIENT
+  logic edge_token;  // an EDGE
+  logic eol;  // an EOL
+  logic span;  // a span that came as such
+  logic at_once;  // none of these
+  logic of_level;  // a token of a body at the polygon level
+  logic misplaced;  // out of its place, whether a polygon waits for its edges or not
+  logic flushes;  // it lets polygons of earlier places go first, where no polygon waits for its edges
+  logic side;  // of an EDGE
+  logic last;  // of an EDGE
+  logic [EndLineBits-1:0] end_line;  // of an EDGE: the line behind its last, signed
+  logic goes_on;  // that is behind the next line
+} role_t;
+
 // A polygon's span on a line: from polygon_walk to front_end.
 typedef struct packed {
   logic empty;  // nothing is to be drawn

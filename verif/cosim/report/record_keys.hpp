@@ -24,6 +24,7 @@ void keys(V& v, Of<OptionsRecord>) {
   using R = OptionsRecord;
   v("fault", &R::fault);
   v("netlist", &R::netlist);
+  v("front_end", &R::front_end);
   v("idle", &R::idle);
   v("backpressure", &R::backpressure);
   v("degrade", &R::degrade);

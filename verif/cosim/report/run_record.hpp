@@ -21,10 +21,11 @@ using Json = nlohmann::ordered_json;
 
 /// What decides words and clocks besides scene, size, configuration and seed.
 struct OptionsRecord {
-  std::string fault;     ///< or empty
-  std::string netlist;   ///< ice40, ecp5, or empty: the RTL itself
-  int idle = 0;          ///< percent of clocks
-  int backpressure = 0;  ///< percent of clocks
+  std::string fault;               ///< or empty
+  std::string netlist;             ///< ice40, ecp5, or empty: the RTL itself
+  std::string front_end = "host";  ///< host or rtl: who makes spans of a scene's polygons
+  int idle = 0;                    ///< percent of clocks
+  int backpressure = 0;            ///< percent of clocks
   bool degrade = false;
   std::string order;
   double alpha = 1;

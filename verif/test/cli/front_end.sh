@@ -16,6 +16,19 @@ expect 0 "$kage" cosim random:mixed --front-end rtl --config few.yaml --frames 1
 json r.json 'j["same"] and j["frames"] == 100'
 expect 0 "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --out scene --json s.json
 json s.json 'j["same"] and j["config"]["ACTIVE"] == 48'
+grep -q '^courtyard: ACTIVE: ' stdout && fail "the configuration has a front end: $(cat stdout)"
+# A configuration without gets one, which is told; it is the model that kage model builds with the same option.
+expect 0 "$kage" cosim courtyard --front-end rtl --size 32x24 --frames 1 --out given --json g.json
+grep -qx 'courtyard: ACTIVE: 512 polygons at once, since default has no front end' stdout || fail "ACTIVE is not told: $(cat stdout)"
+json g.json 'j["same"] and j["config"]["ACTIVE"] == 512 and j["options"]["front_end"] == "rtl"'
+expect 0 "$kage" model default --front-end rtl --json m.json
+grep -q '^default with ACTIVE 512: .* (was there)$' stdout || fail "it is another model: $(cat stdout)"
+json m.json 'j[0]["config"]["ACTIVE"] == 512'
+# Shards of unlike levels are not of one run.
+expect 0 "$kage" cosim courtyard --front-end rtl --config front.yaml --size 32x24 --frames 2 --shard 1/2 --out shard --json 1.json
+expect 0 "$kage" cosim courtyard --config front.yaml --size 32x24 --frames 2 --shard 2/2 --out shard --json 2.json
+expect 2 "$kage" merge 1.json 2.json --json both.json
+grep -q '2.json: its options is not that of 1.json' stderr || fail "shards of unlike levels are merged: $(cat stderr)"
 # A defect that no pixel shows is found by the stages alone: spans of one pixel keep their step.
 data_copy data
 sed -i "s/pixels == SpanBits'(1)/1'b0/" data/rtl/polygon_walk.sv

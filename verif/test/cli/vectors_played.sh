@@ -19,10 +19,13 @@ played p "$source/rtl" "passed: "
 played p "$source/rtl" "passed: " +seed=3 +stall=40 +capture=captured.hex
 expect 0 "$kage" vectors --compare p p/captured.hex
 define=KAGE_PACK_TOP played p "$source/rtl" "passed: " +seed=4 +stall=10
-# A stream of polygons, by a core with a front end.
-echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 24}' >front.yaml
+# A stream of polygons, by a core with a front end so small that a malformed frame overflows it.
+echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 16}' >front.yaml
 expect 0 "$kage" stream courtyard --size 32x24 --frames 1 --config front.yaml --level polygons --out front.kage
 make f front.kage
+for error in ': RANGE' ', of polygons: RANGE' ', of polygons: PLACE' ', of polygons: ACTIVE_FULL'; do
+  json f/manifest.json "any(f['what'] == 'malformed$error' for f in j['frames'])"
+done
 played f "$source/rtl" "passed: " +seed=5 +stall=20
 # The very lines of the pack's README and of docs/vectors.md, by both simulators; Verilator's program is slow, but soon made.
 lines_of() { sed -n '/^iverilog .*kage_pack_tb/p; /^verilator /p; /^obj_dir/p' "$1"; }

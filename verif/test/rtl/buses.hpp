@@ -57,6 +57,55 @@ struct FlagsBus {
   }
 };
 
+/// What a token of a frame is to the front end: from polygon_token to front_end.
+struct RoleBus {
+  Place at_token;  ///< an AT
+  Place polygon;  ///< a POLYGON
+  Place gradient;  ///< a GRADIENT
+  Place edge_token;  ///< an EDGE
+  Place eol;  ///< an EOL
+  Place span;  ///< a span that came as such
+  Place at_once;  ///< none of these
+  Place of_level;  ///< a token of a body at the polygon level
+  Place misplaced;  ///< out of its place, whether a polygon waits for its edges or not
+  Place flushes;  ///< it lets polygons of earlier places go first, where no polygon waits for its edges
+  Place side;  ///< of an EDGE
+  Place last;  ///< of an EDGE
+  Place end_line;  ///< of an EDGE: the line behind its last, signed
+  Place goes_on;  ///< that is behind the next line
+
+  explicit constexpr RoleBus([[maybe_unused]] const Config& c) {
+    int at = 0;
+    goes_on = {at, 1};
+    at += goes_on.bits;
+    end_line = {at, kEndLineBits};
+    at += end_line.bits;
+    last = {at, 1};
+    at += last.bits;
+    side = {at, 1};
+    at += side.bits;
+    flushes = {at, 1};
+    at += flushes.bits;
+    misplaced = {at, 1};
+    at += misplaced.bits;
+    of_level = {at, 1};
+    at += of_level.bits;
+    at_once = {at, 1};
+    at += at_once.bits;
+    span = {at, 1};
+    at += span.bits;
+    eol = {at, 1};
+    at += eol.bits;
+    edge_token = {at, 1};
+    at += edge_token.bits;
+    gradient = {at, 1};
+    at += gradient.bits;
+    polygon = {at, 1};
+    at += polygon.bits;
+    at_token = {at, 1};
+  }
+};
+
 /// A polygon's span on a line: from polygon_walk to front_end.
 struct MadeSpanBus {
   Place empty;  ///< nothing is to be drawn
@@ -347,7 +396,7 @@ struct PixelWord {
   Place fsf;  ///< the flag
   Place counts;  ///< its samples in shadow, light 0 lowest
 
-  explicit constexpr PixelWord(const Config& c) {
+  explicit constexpr PixelWord([[maybe_unused]] const Config& c) {
     int at = 0;
     z = {at, c.z_bits};
     at += z.bits;
@@ -371,7 +420,7 @@ struct ExitWord {
   Place counts;  ///< 0 where the class is
   Place dark;  ///< it is lit and in shadow
 
-  explicit constexpr ExitWord(const Config& c) {
+  explicit constexpr ExitWord([[maybe_unused]] const Config& c) {
     int at = 0;
     color = {at, derived::rgb_bits(c)};
     at += color.bits;
@@ -392,7 +441,7 @@ struct EntryWord {
   Place dz;  ///< a pixel
   Place color;  ///< its colour
 
-  explicit constexpr EntryWord(const Config& c) {
+  explicit constexpr EntryWord([[maybe_unused]] const Config& c) {
     int at = 0;
     index = {at, c.order_bits};
     at += index.bits;
@@ -401,6 +450,28 @@ struct EntryWord {
     dz = {at, derived::depth_bits(c)};
     at += dz.bits;
     color = {at, derived::rgb_bits(c)};
+  }
+};
+
+/// An edge on its way down, as hls/kernels/edge.hpp has it.
+struct WalkedEdgeWord {
+  Place x;  ///< first pixel whose centre lies at or right of the crossing
+  Place step;  ///< whole pixels from line to line
+  Place rest;  ///< remainder of x
+  Place rest_step;  ///< of the step
+  Place dy;  ///< height
+
+  explicit constexpr WalkedEdgeWord([[maybe_unused]] const Config& c) {
+    int at = 0;
+    x = {at, kCrossingBits};
+    at += x.bits;
+    step = {at, kCrossingBits};
+    at += step.bits;
+    rest = {at, kEdgeRestBits};
+    at += rest.bits;
+    rest_step = {at, kEdgeRestBits};
+    at += rest_step.bits;
+    dy = {at, kEdgeRestBits};
   }
 };
 
@@ -416,15 +487,15 @@ struct ActiveWord {
   Place down;  ///< a line
   Place gradients;  ///< of its colour, channel 0 lowest
 
-  explicit constexpr ActiveWord(const Config& c) {
+  explicit constexpr ActiveWord([[maybe_unused]] const Config& c) {
     int at = 0;
     place = {at, kPlaceBits};
     at += place.bits;
-    end = {at, 17};
+    end = {at, kEndLineBits};
     at += end.bits;
-    down_edge = {at, kWalkedEdgeBits};
+    down_edge = {at, derived::walked_edge_bits(c)};
     at += down_edge.bits;
-    up_edge = {at, kWalkedEdgeBits};
+    up_edge = {at, derived::walked_edge_bits(c)};
     at += up_edge.bits;
     look = {at, derived::look_bits(c)};
     at += look.bits;
@@ -445,7 +516,7 @@ struct PointWord {
   Place index;  ///< the polyhedron's
   Place z;  ///< its depth
 
-  explicit constexpr PointWord(const Config& c) {
+  explicit constexpr PointWord([[maybe_unused]] const Config& c) {
     int at = 0;
     normal_class = {at, derived::class_field_bits(c)};
     at += normal_class.bits;

@@ -239,6 +239,8 @@ TEST_CASE("With units: reset, a watchdog that never bites a healthy frame, and o
           "[kage_top_units]") {
   reset_test<Vkage_units5>();
   reset_test<Vkage_units3>();
+  reset_within_test<Vkage_units5>();
+  reset_within_test<Vkage_units3>();
   healthy_test<Vkage_units5>();
   healthy_test<Vkage_units3>();
   standstill_test<Vkage_units5>();

@@ -66,6 +66,7 @@ report::SceneRecord some_scene(const std::string& name) {
   s.first_difference = some_difference(4);
   s.options = {.fault = "wrong_compare",
                .netlist = "ecp5",
+               .front_end = "rtl",
                .idle = 20,
                .order = "exact",
                .alpha = 1.0 / 3,
