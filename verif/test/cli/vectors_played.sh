@@ -19,7 +19,7 @@ played p "$source/rtl" "passed: "
 played p "$source/rtl" "passed: " +seed=3 +stall=40 +capture=captured.hex
 expect 0 "$kage" vectors --compare p p/captured.hex
 define=KAGE_PACK_TOP played p "$source/rtl" "passed: " +seed=4 +stall=10
-# A stream of polygons, by a core with a front end so small that a malformed frame overflows it.
+# A stream of polygons, by a core with a front end, and malformed frames of both levels.
 echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 16}' >front.yaml
 expect 0 "$kage" stream courtyard --size 32x24 --frames 1 --config front.yaml --level polygons --out front.kage
 make f front.kage
