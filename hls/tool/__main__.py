@@ -12,18 +12,15 @@ import sys
 
 import yaml
 
-if __package__ in (None, ""):
-    sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))
-    __package__ = "tool"
-    import tool  # noqa: F401
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))  # python3 hls/tool knows no package of its own
 
-from .delays import Delays
-from .graph import Graph
-from .llvm_ir import CLANG_MAJOR, Port, Reader
-from .rewrite import narrowed, tiled
-from .schedule import scheduled
-from .trouble import Trouble
-from .verilog import Emitter
+from tool.delays import Delays
+from tool.graph import Graph
+from tool.llvm_ir import CLANG_MAJOR, Port, Reader
+from tool.rewrite import narrowed, tiled
+from tool.schedule import scheduled
+from tool.trouble import Trouble
+from tool.verilog import Emitter
 
 HLS = pathlib.Path(__file__).resolve().parent.parent
 TOP = HLS.parent
@@ -42,7 +39,7 @@ def clang() -> str:
             in subprocess.run([path, "--version"], capture_output=True, text=True, check=False).stdout
         ):
             return path
-    raise Trouble(f"clang {CLANG_MAJOR}: not found; Debian 12's package is clang-{CLANG_MAJOR}")
+    raise Trouble(f"clang {CLANG_MAJOR}: not found; Debian 12's package is clang-{CLANG_MAJOR}, which Debian 13 takes too: docs/hls.md")
 
 
 def intermediate(source: pathlib.Path, defines: dict[str, int] | None = None) -> str:
@@ -140,7 +137,7 @@ def generate(arguments: argparse.Namespace) -> int:
 
 def show_steps(arguments: argparse.Namespace) -> int:
     """Prints what becomes of a kernel at each step, or at one."""
-    from . import steps
+    from tool import steps
 
     kernels = yaml.safe_load((HLS / "kernels.yaml").read_text())
     names = {e["kernel"]: name for name, e in kernels.items() if "parameters" not in e}
@@ -167,7 +164,7 @@ def show_steps(arguments: argparse.Namespace) -> int:
 
 def show_mutants(arguments: argparse.Namespace) -> int:
     """Prints how many mutants of the generated modules the vectors and the proofs find."""
-    from . import mutants_run
+    from tool import mutants_run
 
     a = arguments
     return mutants_run.run(a.kernels, a.seed, a.count, a.vectors, a.equivalent)
@@ -175,7 +172,7 @@ def show_mutants(arguments: argparse.Namespace) -> int:
 
 def show_figures(arguments: argparse.Namespace) -> int:
     """Prints cells and clock of each kernel, at several numbers of stages or at the chosen one."""
-    from . import figures
+    from tool import figures
 
     for device in arguments.devices or ["ecp5-85f"]:
         delays = delays_of(device)
