@@ -39,7 +39,9 @@ def clang() -> str:
             in subprocess.run([path, "--version"], capture_output=True, text=True, check=False).stdout
         ):
             return path
-    raise Trouble(f"clang {CLANG_MAJOR}: not found; Debian 12's package is clang-{CLANG_MAJOR}, which Debian 13 takes too: docs/hls.md")
+    raise Trouble(
+        f"clang {CLANG_MAJOR}: not found; Debian 12's package is clang-{CLANG_MAJOR}, which Debian 13 takes too: docs/hls.md"
+    )
 
 
 def intermediate(source: pathlib.Path, defines: dict[str, int] | None = None) -> str:
