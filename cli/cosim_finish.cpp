@@ -18,10 +18,10 @@ namespace kage::cli {
 namespace {
 
 /// What decides words and clocks besides scene, size, configuration and seed.
-report::OptionsRecord options_of(const CosimCommand& o) {
+report::OptionsRecord options_of(const CosimCommand& o, Level level) {
   return {.fault = o.rtl.fault,
           .netlist = o.rtl.netlist,
-          .front_end = front_end_of(o.level),
+          .front_end = front_end_of(level),
           .idle = o.rtl.options.idle_percent,
           .backpressure = o.rtl.options.backpressure_percent,
           .degrade = o.degrade,
@@ -188,7 +188,7 @@ report::SceneRecord SceneRun::record_of(const cosim::Report& r) const {
   record.first_frame = steps_.first;
   record.frame_step = steps_.step;
   if (o_.ci.shard.given) record.shard = {o_.ci.shard.index, o_.ci.shard.count};
-  record.options = options_of(o_);
+  record.options = options_of(o_, source.level());
   record.own_sizes = source.is_random() || source.is_stream();
   record.units = static_cast<std::uint64_t>(source.units());
   record.ways = source.ways();

@@ -207,7 +207,7 @@ void option_front_end(CLI::App& command, Options& options) {
           "--front-end",
           [&options](const std::string& who) {
             options.level = front_ends().at(who);
-            options.level_option = options.level == Level::polygons ? "--front-end rtl" : "";
+            options.level_option = "--front-end " + who;
           },
           fmt::format(
               "who makes spans of polygons, default host: rtl sends frames at the polygon level, and the "

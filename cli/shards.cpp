@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "ci.hpp"
+#include "cosim/report/record_keys.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "results.hpp"
@@ -87,6 +88,28 @@ void check_frames(const ShardFile& f) {
   }
 }
 
+/// Throws Error, naming the first of them, where options differ.
+struct SameOptions {
+  const ShardFile& f;
+  const report::OptionsRecord& own;
+  const ShardFile& other;
+  const report::OptionsRecord& others;
+
+  template <class Value>
+  void operator()(const char* name, Value report::OptionsRecord::*option) const {
+    if (own.*option != others.*option)
+      throw Error(fmt::format("{}: its option {} is {}, that of {} is {}", f.file, name, text(own.*option), other.file,
+                              text(others.*option)));
+  }
+
+ private:
+  static std::string text(const std::string& value) { return value.empty() ? "not given" : value; }
+  template <class Number>
+  static std::string text(Number value) {
+    return fmt::format("{}", value);
+  }
+};
+
 /// Throws Error unless the file is of the same run as those read before it.
 void check_alike(const ShardFile& f, const std::vector<ShardFile>& before) {
   const ShardFile& first = before.front();
@@ -113,7 +136,8 @@ void check_alike(const ShardFile& f, const std::vector<ShardFile>& before) {
     }
     same("config", *other, &R::config);
     same("seed", *other, &R::seed);
-    same("options", *other, &R::options);
+    const SameOptions same_option{f, s.options, *other, other->record.scenes[i].options};
+    report::keys(same_option, report::Of<report::OptionsRecord>());
     same("degraded", *other, &R::degraded);
   }
   if (f.number.count != first.number.count)

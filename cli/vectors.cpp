@@ -75,6 +75,14 @@ class PackFrames {
     const int from = chosen_.empty() ? i : chosen(i).from;
     return fmt::format("{}, frame {}", source_.name(), from);
   }
+  /// Throws Error if the core refuses or cuts short a frame of the source that was checked as one without fault: a file
+  /// with frames at the polygon level, for a core with less ACTIVE.
+  void refuse_unsound(int i, const FrameStatus& status) const {
+    if (i >= sound() || status.error == ErrorCode::NONE) return;
+    const int from = chosen_.empty() ? i : chosen(i).from;
+    if (!source_.is_unchecked(from))
+      throw Error(fmt::format("{}: frame {}: the core refuses it: {}", source_.name(), from, describe(status)));
+  }
   [[nodiscard]] std::vector<std::size_t> lines(int i) const {
     return i < sound() && !chosen_.empty() ? chosen(i).lines : std::vector<std::size_t>();
   }
@@ -142,6 +150,7 @@ std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
       frame_progress.wait();
     });
     f.status = golden.finish(nowhere);
+    from.refuse_unsound(i, f.status);
     f.beats = (f.words + width - 1) / width;
     f.settles = i + 1 == from.size() || (from.settles(i) && f.status.error != ErrorCode::NONE);
     frames.push_back(f);

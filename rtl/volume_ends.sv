@@ -55,11 +55,11 @@ module volume_ends #(
   flags_t flags;
   logic [TokenBits-1:0] token;
   made_span_t coming_span;
-  logic [1:0] layer;
+  logic [LayerBits-1:0] layer;
   logic [KindBits-1:0] kind;
   assign {plain, whole, family, index, flags, token} = item_i;
   assign coming_span = span_i;
-  assign layer = family[FamilyBits-1-:2];
+  assign layer = family[FamilyBits-1-:LayerBits];
   assign kind = token[KindBits-1:0];
 
   // ---- a polygon's span as a token ---------------------------------------------------------------------------------

@@ -9,6 +9,7 @@ import pathlib
 import shutil
 import subprocess
 import sys
+from typing import NoReturn
 
 import yaml
 
@@ -202,8 +203,16 @@ def whole_number(text: str) -> int:
     return int(text)
 
 
+class Arguments(argparse.ArgumentParser):
+    """Says in one line what is wrong with them."""
+
+    def error(self, message: str) -> NoReturn:
+        print(f"tools/hls: {message}; see tools/hls --help", file=sys.stderr)
+        sys.exit(2)
+
+
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="tools/hls", description=__doc__)
+    parser = Arguments(prog="tools/hls", description=__doc__)
     commands = parser.add_subparsers(dest="command", required=True)
     entries = yaml.safe_load((HLS / "kernels.yaml").read_text()).values()
     kernels = [e["kernel"] for e in entries if "parameters" not in e and e["stages"]]

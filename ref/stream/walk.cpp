@@ -57,6 +57,7 @@ TokenCounts count_tokens(const Config& config, std::span<const std::uint32_t> wo
     refused = refused || spans.add(t, count) != ErrorCode::NONE;
     if (t.kind == Kind::FACE) counts.units = std::max(counts.units, t.segment.unit + 1);
   }
+  if (spans.level() == Level::polygons) counts.active = static_cast<int>(spans.most());
   return counts;
 }
 

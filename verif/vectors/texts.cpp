@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cosim/model/driver/idle.hpp"
 #include "kage/defs.hpp"
 #include "kage/registers.h"
 #include "number/counted.hpp"
@@ -29,6 +30,13 @@ struct Macro {
   std::uint64_t value;
   const char* what;
 };
+// At least what a core sweeps after reset, whatever a netlist does to it.
+std::uint64_t quiet_clocks(const Config& c) {
+  return std::max<std::uint64_t>(
+      100'000, idle_clocks(static_cast<std::uint64_t>(c.max_width), static_cast<std::uint64_t>(c.lanes),
+                           static_cast<std::uint64_t>(c.active)));
+}
+
 std::vector<Macro> macros(const Pack& p) {
   return {{"BEAT_WORDS", static_cast<std::uint64_t>(p.config.beat_words), "32-bit words in a beat of s_axis"},
           {"CHANNELS", static_cast<std::uint64_t>(p.config.channels), "bytes of a pixel on m_axis"},
@@ -36,7 +44,8 @@ std::vector<Macro> macros(const Pack& p) {
           {"BEATS", p.beats(), "beats of all frames"},
           {"LINES", p.lines(), "lines of all frames that come out"},
           {"PIXELS", p.pixels(), "pixels of all frames that come out"},
-          {"READS", p.reads.size(), "registers that are read"}};
+          {"READS", p.reads.size(), "registers that are read"},
+          {"QUIET", quiet_clocks(p.config), "clocks without a move at any port behind which the core counts as hung"}};
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ struct TokenCounts {
   std::uint64_t made = 0;                       ///< of `spans` those that the front end makes of polygons
   std::uint64_t span_pixels = 0;                ///< pixels in them
   int units = 0;                                ///< units with faces; of several frames, the most
-  int active = 0;  ///< polygons at once, which ACTIVE must hold; of several frames, the most; of checked frames alone
+  int active = 0;  ///< polygons at once, which ACTIVE must hold; of several frames, the most
 
   /// Adds those of another frame.
   /// @param other its counts

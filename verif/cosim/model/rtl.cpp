@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cosim/model/driver/idle.hpp"
 #include "cosim/model/misconduct.hpp"
 #include "cosim/model/register_answer.hpp"
 #include "cosim/model/rtl_library.hpp"
@@ -331,10 +332,11 @@ class Rtl : public RtlCore {
     return s;
   }
 
-  /// Clocks after which events are handed over. The model sees that a core has come to rest after 8 MAX_WIDTH + 4096
-  /// clocks with output ready: the slice has twice as many.
+  /// Clocks after which events are handed over. The model sees that a core has come to rest after idle_clocks() with
+  /// output ready: the slice has twice as many.
   [[nodiscard]] std::uint64_t slice() const {
-    const auto rest = 8 * static_cast<std::uint64_t>(config_.max_width) + 4096;
+    const auto number = [](int parameter) { return static_cast<std::uint64_t>(parameter); };
+    const auto rest = idle_clocks(number(config_.max_width), number(config_.lanes), number(config_.active));
     return often_ ? 2 * rest * 100 / (100 - static_cast<unsigned>(options_.backpressure_percent)) : kForever;
   }
 

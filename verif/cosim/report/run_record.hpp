@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 struct OptionsRecord {
   std::string fault;               ///< or empty
   std::string netlist;             ///< ice40, ecp5, or empty: the RTL itself
-  std::string front_end = "host";  ///< host or rtl: who makes spans of a scene's polygons
+  std::string front_end = "host";  ///< host or rtl: who makes spans of polygons
   int idle = 0;                    ///< percent of clocks
   int backpressure = 0;            ///< percent of clocks
   bool degrade = false;

@@ -143,7 +143,7 @@ trouble "two outputs have this name" "$kage" cosim "${run[@]}" --out none --juni
 trouble "shard 2/3 is missing" "$kage" merge 1.json 3.json --json none.json
 trouble "shard 1/3 is missing" "$kage" merge 2.json
 trouble "2.json: shard 2/3 once more, as 2.json" "$kage" merge 1.json 2.json 3.json 2.json
-trouble "b1.json: its options is not that of 1.json" "$kage" merge 1.json b1.json
+trouble "b1.json: its option fault is wrong_compare, that of 1.json is not given" "$kage" merge 1.json b1.json
 trouble "whole.json: the report of all frames" "$kage" merge whole.json
 trouble "all.json: the report of all frames" "$kage" merge all.json
 trouble "nowhere.json: cannot be read" "$kage" merge nowhere.json
@@ -178,10 +178,12 @@ del j['seed']|spoilt.json: no report of kage cosim: seed is missing
 del j['shard']['count']|spoilt.json: no report of kage cosim: count is missing (shard/count)
 j['config']['LATER']=1|spoilt.json: no report of kage cosim: LATER is no parameter of this kage (config/LATER)
 CASES
-for change in "j['seed']=2" "j['width']=65" "j['config']['LANES']=4" "j['scene']='x'" "j['options']['idle']=1"; do
+for change in "j['seed']=2" "j['width']=65" "j['config']['LANES']=4" "j['scene']='x'"; do
   spoilt "$change"
   trouble "is not that of spoilt.json" "$kage" merge spoilt.json 2.json 3.json
 done
+spoilt "j['options']['idle']=1"
+trouble "2.json: its option idle is 0, that of spoilt.json is 1" "$kage" merge spoilt.json 2.json 3.json
 spoilt "j['shard']['count']=4"
 trouble "spoilt.json: one of 4 shards, 2.json one of 3" "$kage" merge 2.json 3.json spoilt.json
 echo '[[[' >broken.json

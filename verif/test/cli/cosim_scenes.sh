@@ -102,7 +102,7 @@ while IFS='|' read -r change text; do
 done <<'CASES'
 s[1]['config']['LANES']=4|spoilt.json: its config is not that of 1.json
 s[1]['seed']=2|spoilt.json: its seed is not that of 1.json
-s[0]['options']['idle']=5|spoilt.json: its options is not that of 1.json
+s[0]['options']['idle']=5|spoilt.json: its option idle is 5, that of 1.json is 0
 s[0]['total_frames']=5|spoilt.json: its total_frames is not that of 1.json
 s[1]['first_frame']=1|cannot have the 2 that it claims
 s[1]['frame_step']=1|cannot have the 2 that it claims

@@ -140,7 +140,9 @@ void front_end_test() {
     bool waits = false;
     bool still = false;  // nothing moved in the clock before
     bool was_valid = false;
-    for (int clock = 0; out_frame < out.size(); ++clock) {
+    bool was_dropped = false;  // drop_i was high in the clock before
+    bool owed = false;         // the rest of a frame that is dropped has yet to be offered
+    for (int clock = 0; out_frame < out.size() || in_frame < in.size(); ++clock) {
       REQUIRE(clock < 400000);
       const bool offered = offer(dice, in_frame < in.size());
       top->token_valid_i = offered ? 1 : 0;
@@ -155,7 +157,7 @@ void front_end_test() {
         put(top->token_flags_i, kFlags.at_last, given->at_last);
         put(top->token_flags_i, kFlags.fault, 0);
       }
-      top->dropping_i = 0;
+      top->dropping_i = dice.percent(10) ? 1 : 0;
       top->token_ready_i = dice.percent(out_stall) ? 0 : 1;
       top->drop_i = 0;
       top.settle();
@@ -170,6 +172,7 @@ void front_end_test() {
       }
       bool frame_ends = taken && (ends || dropping);
       if (top->token_valid_o && !dropping) {
+        REQUIRE(out_frame < out.size());
         REQUIRE(out_at < out[out_frame].size());
         const Passed& e = out[out_frame][out_at];
         INFO("frame " << out_frame << ", token " << e.index);
@@ -195,6 +198,12 @@ void front_end_test() {
       still = !top->moving_o && !taken && !in_taken;
       was_valid = top->token_valid_o;
       if (top->token_valid_o || top->moving_o) REQUIRE((top->busy_o || in_taken));
+      // dropping_o: from the clock behind drop_i until the frame's rest has come.
+      if (top->dropping_i || was_dropped || owed || top->drop_o) REQUIRE(top->dropping_o);
+      if (!offered && still && !was_dropped && !owed && !top->moving_o) REQUIRE(top->dropping_o == top->dropping_i);
+      if (offered) owed = false;
+      if (top->drop_i && in_frame == out_frame && !(in_taken && given->ends)) owed = true;
+      was_dropped = top->drop_i;
       const bool in_dropped = top->drop_o;
       if (in_dropped) REQUIRE((in_taken && !given->ends));
       top.edge();
@@ -211,12 +220,23 @@ void front_end_test() {
         ++out_frame;
       }
     }
+    // Nothing is left of the last frame.
+    top->token_valid_i = top->dropping_i = top->drop_i = 0;
+    for (int n = 0; n < 64; ++n) {
+      top.settle();
+      REQUIRE(!top->token_valid_o);
+      top.edge();
+    }
+    top.settle();
+    REQUIRE(!top->busy_o);
+    REQUIRE(!top->moving_o);
+    REQUIRE(!top->dropping_o);
   });
 }
 
-// ---- clocks
-// ---------------------------------------------------------------------------------------------------------- Frames of
-// a few polygons, with no stall on either side.
+// ---- clocks ----
+
+// Frames of a few polygons, with no stall on either side.
 
 constexpr Config kTimed = config_of<Vfront_end>();
 constexpr int kLines = 40;

@@ -224,7 +224,8 @@ void healthy_test() {
     const int most = kRests[dice.below(6)];
     CAPTURE(most);
     Core<Model> core(dice);
-    for (int n = 0; n < dice.below(2) * 2 * c.max_width; ++n) core.clock();  // the sweep after reset is over, or is not
+    const int sweep = dice.below(2) * 2 * c.max_width;
+    for (int n = 0; n < sweep; ++n) core.clock();  // the sweep after reset is over, or is not
     core.write(KAGE_REG_WATCHDOG, static_cast<std::uint32_t>(most) + 1);
     core.write(KAGE_REG_CONTROL, KAGE_CONTROL_WATCHDOG_MASK);
     core.in.most = dice.percent(50) ? most : 0;

@@ -19,7 +19,6 @@ module kage_pack_tb;
   localparam RGB_BITS = `KAGE_PACK_CHANNELS * 8;
   localparam STIMULUS_BITS = BEAT_BITS + 4;  // {TLAST, beat}
   localparam PIXEL_BITS = RGB_BITS + 4;  // {TUSER, TLAST, pixel}
-  localparam QUIET = 100000;  // clocks without a move at any port, at most: more than any core sweeps after reset
 
   reg [STIMULUS_BITS-1:0] stimulus[0:`KAGE_PACK_BEATS-1];
   reg [PIXEL_BITS-1:0] pixels[0:`KAGE_PACK_PIXELS-1];
@@ -236,7 +235,7 @@ module kage_pack_tb;
           failed = 1'b1;
         end
       end
-      if (quiet == QUIET && !failed) begin
+      if (quiet == `KAGE_PACK_QUIET && !failed) begin
         $display("kage_pack_tb: FAILED: nothing moves: frame %0d, line %0d, x %0d is missing, beat %0d of %0d waits, clock %0d",
                  out_frame, out_line, out_x, beat, `KAGE_PACK_BEATS, clocks);
         failed = 1'b1;

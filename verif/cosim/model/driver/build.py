@@ -196,7 +196,9 @@ class Build:
             f"constexpr std::int32_t kMutants = {self.mutants};\n"
             f"constexpr unsigned kBeatWords = {values['BEAT_WORDS']};\n"
             f"constexpr int kChannels = {values['CHANNELS']};\n"
-            f"constexpr unsigned kMaxWidth = {values['MAX_WIDTH']};\n" + unwatched(missing)
+            f"constexpr unsigned kMaxWidth = {values['MAX_WIDTH']};\n"
+            f"constexpr unsigned kLanes = {values['LANES']};\n"
+            f"constexpr unsigned kActive = {values['ACTIVE']};\n" + unwatched(missing)
         )
 
     def make_one_unit(self):

@@ -11,7 +11,8 @@
 
 #include "Vkage.h"
 #include "flow.hpp"
-#include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth
+#include "idle.hpp"
+#include "params.inc"  // made by build.py: kParamNames, kParamValues, kFault, kBeatWords, kChannels, kMaxWidth, kLanes, kActive
 #include "register_bus.hpp"
 #include "rtl_model.h"
 #include "verilated.h"
@@ -31,8 +32,8 @@ void put_words(VlWide<N>& port, const std::uint32_t* words) {
   for (std::size_t i = 0; i < N; ++i) port[i] = words[i];
 }
 
-// Clocks without any movement after which the core counts as idle: more than the longest work on one token.
-inline constexpr std::uint64_t kIdleClocks = 8ULL * kMaxWidth + 4096;
+// Clocks without any movement after which the core counts as idle.
+inline constexpr std::uint64_t kIdleClocks = idle_clocks(kMaxWidth, kLanes, kActive);
 
 struct kage_rtl {
   struct Block {
