@@ -24,6 +24,7 @@ report::OptionsRecord options_of(const CosimCommand& o, Level level) {
           .front_end = front_end_of(level),
           .idle = o.rtl.options.idle_percent,
           .backpressure = o.rtl.options.backpressure_percent,
+          .stages = o.stages,
           .degrade = o.degrade,
           .order = name_of(o.order),
           .alpha = o.alpha,

@@ -68,7 +68,7 @@ void add_model(CLI::App& app, Action& action) {
                             "  kage model\n"
                             "  kage model default full\n"
                             "  kage model tiny --netlist ice40\n"
-                            "  kage model default --front-end rtl              # what kage cosim takes with that\n"
+                            "  kage model default --front-end rtl              (what kage cosim takes with that option)\n"
                             "  kage model mine.yaml --json -\n"
                             "  kage model --plan courtyard --plan bunny.obj");
   const auto o = std::make_shared<ModelCommand>();

@@ -151,7 +151,7 @@ class Comparer {
     }
     // Both refuse the header alike, so there is nothing that could have been compared: no verdict, and never "same".
     if (e.status.width == 0 && !options_.refusals)
-      throw Error(fmt::format("frame {}: the cores refuse it: {}", frame, describe(e.status)));
+      throw Error(fmt::format("{}: frame {}: the cores refuse it: {}", options_.name, frame, describe(e.status)));
     if (options_.same) options_.same(result);
     own_.reset();
     other_.reset();

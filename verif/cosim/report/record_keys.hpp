@@ -27,6 +27,7 @@ void keys(V& v, Of<OptionsRecord>) {
   v("front_end", &R::front_end);
   v("idle", &R::idle);
   v("backpressure", &R::backpressure);
+  v("stages", &R::stages);
   v("degrade", &R::degrade);
   v("order", &R::order);
   v("alpha", &R::alpha);

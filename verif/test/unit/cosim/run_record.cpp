@@ -68,6 +68,7 @@ report::SceneRecord some_scene(const std::string& name) {
                .netlist = "ecp5",
                .front_end = "rtl",
                .idle = 20,
+               .stages = true,
                .order = "exact",
                .alpha = 1.0 / 3,
                .samples = 4,
