@@ -64,13 +64,14 @@ int run(const ModelCommand& o) {
 }  // namespace
 
 void add_model(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "model", "Build the RTL models of configurations ahead of their use",
-                            "  kage model\n"
-                            "  kage model default full\n"
-                            "  kage model tiny --netlist ice40\n"
-                            "  kage model default --front-end rtl              (what kage cosim takes with that option)\n"
-                            "  kage model mine.yaml --json -\n"
-                            "  kage model --plan courtyard --plan bunny.obj");
+  CLI::App* c =
+      add_command(app, "model", "Build the RTL models of configurations ahead of their use",
+                  "  kage model\n"
+                  "  kage model default full\n"
+                  "  kage model tiny --netlist ice40\n"
+                  "  kage model default --front-end rtl              (what kage cosim takes with that option)\n"
+                  "  kage model mine.yaml --json -\n"
+                  "  kage model --plan courtyard --plan bunny.obj");
   const auto o = std::make_shared<ModelCommand>();
   c->add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)

@@ -26,7 +26,7 @@ struct OptionsRecord {
   std::string front_end = "host";  ///< host or rtl: who makes spans of polygons
   int idle = 0;                    ///< percent of clocks
   int backpressure = 0;            ///< percent of clocks
-  bool stages = false;  ///< each stage of frames that come out the same is held too
+  bool stages = false;             ///< each stage of frames that come out the same is held too
   bool degrade = false;
   std::string order;
   double alpha = 1;
