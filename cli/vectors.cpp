@@ -363,8 +363,8 @@ int check(const VectorsCommand& o) {
   const vectors::Pack pack = vectors::checked_pack(o.check, vectors::Check::all, check_interrupt);
   TempFiles none;
   finish(o, {"kage.vectors/1", summary(pack, o.check, std::nullopt)}, none,
-         fmt::format("{}: good: {}, configuration {}, {}, {}\n", o.check, counted(pack.frames.size(), "frame"), pack.config_name,
-                     counted(pack.pixels(), "pixel"), counted(pack.files.size(), "file")));
+         fmt::format("{}: good: {}, configuration {}, {}, {}\n", o.check, counted(pack.frames.size(), "frame"),
+                     pack.config_name, counted(pack.pixels(), "pixel"), counted(pack.files.size(), "file")));
   return kSame;
 }
 
