@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "file/extension.hpp"
 #include "kage/error.hpp"
 #include "notes.hpp"
 #include "scene/module/table.hpp"
@@ -81,6 +82,11 @@ RawScene import_file(const std::filesystem::path& path, const std::string& name,
     if (file.is_version_2()) return checked(import_gltf(std::move(file)));
     if (file.is_binary()) throw Error(name + ": binary glTF 1 is not read (glTF 2, and glTF 1 as .gltf, are)");
   }
+  const std::string extension = lower_extension(path);
+  if (extension == ".obj") return checked(import_obj(path, name, allow_outside));
+  if (extension == ".ply") return checked(import_ply(path, name));
+  if (extension == ".stl") return checked(import_stl(path, name));
+  if (extension == ".off") return checked(import_off(path, name));
   return checked(import_assimp(path, name, allow_outside));
 }
 

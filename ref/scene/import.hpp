@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a file to a RawScene. Both readers run in the import child; both throw Error.
+// From a file to a RawScene. All readers run in the import child; all throw Error.
 #pragma once
 
 #include <filesystem>
@@ -11,12 +11,16 @@
 
 namespace kage::scene {
 
-/// Read with kage's own glTF 2.0 reader where it is one, else with Assimp, and check what came out: finite numbers,
-/// indices in range, at least one face. `name` is how messages call the file. `allow_outside`: the files that it names
-/// may lie anywhere (side_files.hpp).
+/// Read with kage's own reader of the format where there is one, else with Assimp, and check what came out: finite
+/// numbers, indices in range, at least one face. `name` is how messages call the file. `allow_outside`: the files that
+/// it names may lie anywhere (side_files.hpp).
 RawScene import_file(const std::filesystem::path& path, const std::string& name, bool allow_outside = false);
 
 RawScene import_gltf(GltfFile file);
+RawScene import_obj(const std::filesystem::path& path, const std::string& name, bool allow_outside = false);
+RawScene import_ply(const std::filesystem::path& path, const std::string& name);
+RawScene import_stl(const std::filesystem::path& path, const std::string& name);
+RawScene import_off(const std::filesystem::path& path, const std::string& name);
 RawScene import_assimp(const std::filesystem::path& path, const std::string& name, bool allow_outside = false);
 
 /// The checks that close import_file.

@@ -162,7 +162,7 @@ struct SceneOptions {
 /// A scene loaded from a file.
 class Scene {
  public:
-  /// Loads any file that Assimp reads, or a built-in scene. Throws Error that names file, place and cause.
+  /// Loads a file (glTF 2.0, OBJ, PLY, STL, OFF, or what else Assimp reads), or a built-in scene. Throws Error that names file, place and cause.
   /// Import runs in a child process with limits of time and memory; its death is an Error like any other. The child is
   /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
   /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the

@@ -2,6 +2,7 @@
 //
 // Whatever else Assimp reads, into a RawScene. Assimp is asked for the file's data as they are, without its own
 // processing: kage triangulates, welds and orders itself.
+#include <assimp/BaseImporter.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -10,8 +11,10 @@
 #include <assimp/Importer.hpp>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <new>
 #include <utility>
+#include <vector>
 
 #include "kage/error.hpp"
 #include "number/counted.hpp"
@@ -30,7 +33,7 @@ namespace {
 
 class Reader {
  public:
-  Reader(const aiScene& in, const AssimpFiles& files, const std::string& file) : in_(in), files_(files), file_(file) {}
+  Reader(const aiScene& in, const std::string& file) : in_(in), file_(file) {}
 
   RawScene run() {
     walk();
@@ -50,7 +53,6 @@ class Reader {
   void write_notes();
 
   const aiScene& in_;
-  const AssimpFiles& files_;
   const std::string& file_;
   RawScene out_;
   std::map<std::vector<unsigned>, std::int32_t> mesh_of_;  // meshes that one node draws together
@@ -156,7 +158,6 @@ void Reader::read_faces(const aiMesh& mesh, RawPrimitive& p) {
 
 void Reader::write_notes() {
   const AssimpMaterials::Counts materials = materials_.counts();
-  for (std::string& note : files_.obj_notes(materials.names)) out_.notes.push_back(std::move(note));
   const auto add = [this](std::size_t count, const char* one, const char* many, const char* rest) {
     if (count > 0) out_.notes.push_back(counted(count, one, many) + rest);
   };
@@ -181,8 +182,14 @@ void Reader::write_notes() {
 }  // namespace
 
 RawScene read(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
+  std::vector<std::unique_ptr<Assimp::BaseImporter>> unused;
   Assimp::Importer importer;
-  auto* const files = new AssimpFiles(path.string(), name, allow_outside);  // the importer deletes it
+  for (const char* own :
+       {"obj", "ply", "stl", "off"}) {  // kage reads these itself: Assimp is not to, whatever a file's name ends in
+    unused.emplace_back(importer.GetImporter(own));
+    importer.UnregisterLoader(unused.back().get());
+  }
+  auto* const files = new AssimpFiles(path.string(), allow_outside);  // the importer deletes it
   importer.SetIOHandler(files);
   const aiScene* scene = importer.ReadFile(path.string(), 0);
   if (!files->refused().empty()) throw Error(name + ": " + SideFiles::refusal(files->refused()));
@@ -191,7 +198,7 @@ RawScene read(const std::filesystem::path& path, const std::string& name, bool a
     if (cause.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp turns it into this text
     throw Error(name + ": " + (cause.empty() ? "Assimp cannot read it" : cause));
   }
-  return Reader(*scene, *files, name).run();
+  return Reader(*scene, name).run();
 }
 
 }  // namespace kage::scene::mesh_module

@@ -75,7 +75,6 @@ AssimpMaterials::Counts AssimpMaterials::counts() const {
       all.textures += m.GetTextureCount(static_cast<aiTextureType>(type));
     ai_real value = 1;
     if (m.Get(AI_MATKEY_OPACITY, value) == AI_SUCCESS && !(value > 0)) ++all.invisible;
-    all.names.insert(text(m.GetName()));
   }
   return all;
 }

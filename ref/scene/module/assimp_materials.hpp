@@ -24,9 +24,8 @@ class AssimpMaterials {
     std::size_t emitting = 0;  ///< that give light over a colour that is not black
     std::size_t glossy = 0;
     std::size_t unshaded = 0;
-    std::size_t invisible = 0;      ///< of opacity 0
-    std::size_t textures = 0;       ///< slots with one
-    std::set<std::string> names{};  ///< of the materials
+    std::size_t invisible = 0;  ///< of opacity 0
+    std::size_t textures = 0;   ///< slots with one
   };
   [[nodiscard]] Counts counts() const;
 

@@ -142,7 +142,6 @@ TEST_CASE("files that are none") {
 
 TEST_CASE("files that hold no scene are refused in one line") {
   const TempDirectory dir;
-  setenv("KAGE_IMPORT_SECONDS", "2", 1);  // Assimp 5.2.5 reads the cut PLY file for ever
   const std::string nothing = dir.write("noise.xyz", "what is this?");
   const std::vector<std::string> files{nothing,
                                        dir.write("noise.obj", std::string("\0\1\2\3", 4)),
@@ -162,8 +161,7 @@ TEST_CASE("files that hold no scene are refused in one line") {
     CHECK(message.find('\n') == std::string::npos);
     CHECK(message.rfind(dir.path().string(), 0) == 0);
   }
-  unsetenv("KAGE_IMPORT_SECONDS");
-  CHECK(refusal(files[3]).find("vertex 1: position is not a number") != std::string::npos);
+  CHECK(refusal(files[3]) == files[3] + ": line 2: nan is not finite");
   CHECK(refusal(files[4]) == files[4] + ": line 3: vertex 3 of 2 is named");
   CHECK(refusal(files[5]).find("no faces: every triangle repeats a vertex") != std::string::npos);
   CHECK(refusal(files[10]) == files[10] + ": binary glTF 1 is not read (glTF 2, and glTF 1 as .gltf, are)");
@@ -184,7 +182,7 @@ TEST_CASE("an OBJ file that names a vertex which is not there is refused with th
   CHECK(of(three + "f 1 2 3\n\nl 1 \\\n4\n") == "line 6: vertex 4 of 3 is named");
   CHECK(of("f -1 -2 -3\n" + three) == "line 1: vertex -1 of 0 is named");
   CHECK(of(three + "f -1 -2 -4\n") == "line 4: vertex -4 of 3 is named");
-  CHECK(of(three + "f 1 2 99999999999999999999\n") == "line 4: vertex 9223372036854775807 of 3 is named");
+  CHECK(of(three + "f 1 2 99999999999999999999\n") == "line 4: 99999999999999999999 is no vertex's number");
   CHECK(of(three + "f 0 1 2\n") == "line 4: 0 is no vertex's number");
   CHECK(of(three + "f a 1 2\n") == "line 4: a is no vertex's number");
 }

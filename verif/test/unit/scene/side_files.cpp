@@ -135,7 +135,7 @@ TEST_CASE("a scene in the current folder, or reached by a link, has the folder o
   CHECK(test::refusal((f.path() / "away/scene.gltf").string()) == "loaded");  // with the buffer of `away`
 }
 
-TEST_CASE("other formats: what Assimp opens for them is confined too") {
+TEST_CASE("other formats: an OBJ file's materials and what Assimp opens are confined too") {
   const Folders f;
   for (const std::string name : {"../away/look.mtl", "out.mtl", "door/look.mtl"}) {
     INFO(name);
@@ -143,7 +143,7 @@ TEST_CASE("other formats: what Assimp opens for them is confined too") {
     CHECK(message.find("lies outside the file's folder; --allow-outside reads it") != std::string::npos);
     CHECK(message.find(name) != std::string::npos);
   }
-  // Of an OBJ file's absolute name Assimp looks for the last part, in the file's folder; that of a LightWave scene it
+  // Of an absolute name the last part is looked for in an OBJ file's folder first; that of a LightWave scene Assimp
   // opens as it is.
   const std::string away = (f.path() / "away/look.mtl").string();
   CHECK(f.obj(away, false) == "loaded");

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/plain/obj_libraries.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "kage/error.hpp"
+#include "scene/notes.hpp"
+#include "scene/plain/statements.hpp"
+
+namespace kage::scene {
+namespace {
+
+constexpr std::size_t kNamed = 5;  // so many materials that are not there are named
+
+void add_once(std::vector<std::string>& to, std::string name) {
+  if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(std::move(name));
+}
+
+}  // namespace
+
+ObjLibraries::ObjLibraries(std::filesystem::path file, std::string name, bool allow_outside)
+    : file_(std::move(file)), name_(std::move(name)), side_files_(file_, allow_outside) {}
+
+// A name may be that of another machine, with its folders and its way of parting them: then a file of the name's last
+// part that lies beside the scene is meant. An absolute name is looked for there first.
+SideFiles::Found ObjLibraries::find_file(const std::string& name) const {
+  std::string plain = name;
+  std::replace(plain.begin(), plain.end(), '\\', '/');
+  const std::string last = plain.substr(plain.find_last_of('/') + 1);
+  std::vector<std::string> tries{name, plain, last};
+  if (name.starts_with('/')) tries = {last, name};
+  for (const std::string& path : tries) {
+    SideFiles::Found found = path.empty() ? SideFiles::Found{} : side_files_.find_named(path);
+    if (found.exists) return found;
+  }
+  return {};
+}
+
+void ObjLibraries::read(const SideFiles::Found& file, std::vector<std::string>& notes) {
+  if (!read_.insert(file.path.string()).second) return;
+  const std::string name = file.path.filename().string();
+  read_mtl(file_bytes(file.path, name), name, materials_, notes);
+}
+
+void ObjLibraries::add(std::string_view names, std::vector<std::string>& notes) {
+  const auto take = [&](const std::string& name) {
+    const SideFiles::Found file = find_file(name);
+    if (file.exists && file.refused) throw Error(name_ + ": " + SideFiles::refusal(name));
+    if (file.exists) read(file, notes);
+    return file.exists;
+  };
+  if (names.size() > 2 && names.front() == '"' && names.back() == '"') names = names.substr(1, names.size() - 2);
+  const std::string whole(names);
+  if (whole.empty() || take(whole)) return;
+  if (const std::string name(without_comment(names)); name != whole && !name.empty() && take(name)) return;
+  std::vector<std::string> missing;
+  std::size_t found = 0;
+  std::string_view rest = without_comment(names);
+  for (std::string_view word = take_word(rest); !word.empty(); word = take_word(rest))
+    if (const std::string name(word); take(name))
+      ++found;
+    else
+      missing.push_back(name);
+  // Where none of the words is a file, all of them are the name of one.
+  if (found == 0) missing = {std::string(without_comment(names))};
+  for (std::string& name : missing) add_once(missing_, std::move(name));
+}
+
+const MtlMaterial* ObjLibraries::find(const std::string& name) {
+  auto at = materials_.find(name);
+  if (at == materials_.end()) at = materials_.find(without_comment(name));
+  if (at != materials_.end()) return &at->second;
+  if (!name.empty()) unknown_.push_back(name);
+  return nullptr;
+}
+
+void ObjLibraries::fall_back(std::vector<std::string>& notes) {
+  if (missing_.empty() || !read_.empty()) return;
+  const SideFiles::Found own = side_files_.find_named(file_.stem().string() + ".mtl");
+  if (!own.exists || own.refused) return;
+  read(own, notes);
+  instead_ = own.path.filename().string();
+}
+
+void ObjLibraries::note_missing(std::vector<std::string>& notes) const {
+  for (const std::string& library : missing_)
+    notes.push_back(fmt::format(
+        "no file {}: {}", one_line(library, 120),
+        instead_.empty() ? "its materials are drawn grey" : "the materials are those of " + one_line(instead_, 120)));
+  if (unknown_.empty() || (!missing_.empty() && read_.empty())) return;  // no material is there, and the notes say it
+  std::string names;
+  for (std::size_t i = 0; i < std::min(unknown_.size(), kNamed); ++i)
+    names += fmt::format("{}'{}'", i == 0 ? "" : ", ", one_line(unknown_[i], 60));
+  if (unknown_.size() > kNamed) names += fmt::format(" and {} more", unknown_.size() - kNamed);
+  notes.push_back(fmt::format("no material{} {}: drawn grey", unknown_.size() == 1 ? "" : "s", names));
+}
+
+}  // namespace kage::scene

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/plain/plain_mesh.hpp"
+
+#include <fstream>
+#include <utility>
+
+#include "kage/error.hpp"
+#include "number/counted.hpp"
+#include "scene/polygon.hpp"
+
+namespace kage::scene {
+namespace {
+
+void push(std::vector<float>& to, const std::vector<float>& from, std::size_t vertex) {
+  to.insert(to.end(), from.begin() + static_cast<std::ptrdiff_t>(3 * vertex),
+            from.begin() + static_cast<std::ptrdiff_t>(3 * vertex + 3));
+}
+
+/// The mesh with vertices of its own for each face, all in the face's colour.
+PlainMesh apart(const PlainMesh& mesh) {
+  PlainMesh out;
+  for (std::size_t face = 0, at = 0; face < mesh.face_count(); ++face)
+    for (; at < mesh.ends[face]; ++at) {
+      const std::size_t vertex = mesh.corners[at];
+      push(out.positions, mesh.positions, vertex);
+      if (!mesh.normals.empty()) push(out.normals, mesh.normals, vertex);
+      push(out.colors, mesh.face_colors, face);
+      out.corners.push_back(static_cast<std::uint32_t>(at));
+    }
+  out.ends = mesh.ends;
+  out.name = mesh.name;
+  out.double_sided = mesh.double_sided;
+  return out;
+}
+
+}  // namespace
+
+std::string file_bytes(const std::filesystem::path& path, const std::string& name) {
+  std::ifstream in(path, std::ios::binary);
+  std::string bytes;
+  std::string chunk(std::size_t{1} << 20, '\0');
+  while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || in.gcount() > 0)
+    bytes.append(chunk, 0, static_cast<std::size_t>(in.gcount()));
+  if (in.bad() || !in.eof()) throw Error(name + ": cannot be read");
+  return bytes;
+}
+
+bool append_face(RawPrimitive& p, std::span<const std::uint32_t> vertices) {
+  if (vertices.size() < 3) return false;
+  if (vertices.size() == 3) {
+    p.corners.insert(p.corners.end(), vertices.begin(), vertices.end());
+    p.faces.push_back(p.face_count++);
+    return true;
+  }
+  std::vector<glm::dvec3> corners;
+  for (const std::size_t v : vertices)
+    corners.emplace_back(p.positions[3 * v], p.positions[3 * v + 1], p.positions[3 * v + 2]);
+  for (const auto& triangle : triangulate(corners)) {
+    for (const std::uint32_t k : triangle) p.corners.push_back(vertices[k]);
+    p.faces.push_back(p.face_count);
+  }
+  ++p.face_count;
+  return true;
+}
+
+std::size_t append(const PlainMesh& mesh, RawScene& scene) {
+  if (!mesh.face_colors.empty()) return append(apart(mesh), scene);
+  RawPrimitive p;
+  p.color = mesh.colors.empty() ? glm::dvec3(mesh.color) : glm::dvec3(1);
+  p.double_sided = mesh.double_sided;
+  p.positions = mesh.positions;
+  p.normals = mesh.normals;
+  p.colors = mesh.colors;
+  std::size_t thin = 0;
+  for (std::size_t face = 0, first = 0; face < mesh.face_count(); first = mesh.ends[face++])
+    thin += append_face(p, std::span(mesh.corners).subspan(first, mesh.ends[face] - first)) ? 0 : 1;
+  RawNode node;
+  node.name = mesh.name;
+  node.mesh = static_cast<std::int32_t>(scene.meshes.size());
+  scene.nodes.push_back(std::move(node));
+  scene.meshes.push_back({mesh.name, {std::move(p)}});
+  SceneContents& c = scene.contents;
+  c.materials = 1;
+  c.says_sides = mesh.double_sided;
+  c.single_sided = mesh.double_sided ? 0 : 1;
+  return thin;
+}
+
+void note_thin(std::size_t count, std::vector<std::string>& notes) {
+  if (count > 0) notes.push_back(counted(count, "point or line is", "points or lines are") + " ignored");
+}
+
+void note_alpha(std::size_t colors, std::vector<std::string>& notes) {
+  if (colors > 0)
+    notes.push_back(counted(colors, "colour has", "colours have") +
+                    " alpha of their own, which is ignored: the material's is used");
+}
+
+}  // namespace kage::scene
