@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_animation.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -9,7 +10,8 @@
 
 namespace kage::scene {
 
-// Whether a channel moves a node, which is all that is drawn of animations; the others are counted.
+// Whether a channel moves a node or a mesh's morph targets, which is all that is drawn of animations; others are
+// counted.
 bool GltfAnimation::is_drawn_path(const Json& target, const std::string& path, bool has_node,
                                   const std::string& place) {
   if (path == "pointer") {
@@ -18,11 +20,7 @@ bool GltfAnimation::is_drawn_path(const Json& target, const std::string& path, b
     ++(visibility ? counts_.blinking : counts_.pointed);
     return false;
   }
-  if (path == "weights") {
-    ++counts_.morphs;
-    return false;
-  }
-  if (has_node && (path == "translation" || path == "rotation" || path == "scale")) return true;
+  if (has_node && (path == "weights" || path == "translation" || path == "rotation" || path == "scale")) return true;
   ++counts_.unknown;
   return false;
 }
@@ -42,7 +40,13 @@ void GltfAnimation::read_channel(const Json& animation, const Json& channel, con
   track.node = known->second;
   track.path = path == "translation" ? RawPath::kTranslation
                : path == "rotation"  ? RawPath::kRotation
-                                     : RawPath::kScale;
+               : path == "scale"     ? RawPath::kScale
+                                     : RawPath::kWeights;
+  track.targets = static_cast<std::uint32_t>(scene_->nodes[track.node].weights.size());
+  if (track.path == RawPath::kWeights && track.targets == 0) {
+    ++counts_.morphs;
+    return;
+  }
   if (!sampler_index) file_->fail(place, "names no sampler");
   const Json& sampler = file_->item_of(samplers, *sampler_index, "samplers", place);
   const std::string interpolation = file_->text(sampler, "interpolation", place);
@@ -54,17 +58,24 @@ void GltfAnimation::read_channel(const Json& animation, const Json& channel, con
   const auto output = file_->integer(sampler, "output", place);
   if (!input || !output) file_->fail(place, "its sampler has no input or output");
   const std::vector<float> times = file_->floats(*input, 1, 1, place).values;
-  const std::vector<float> values = file_->floats(*output, track.width(), track.width(), place).values;
+  const std::size_t components = track.path == RawPath::kWeights ? 1 : track.width();
+  const std::vector<float> values = file_->floats(*output, components, components, place).values;
   const std::size_t per_key = track.width() * (track.interpolation == RawInterpolation::kCubic ? 3 : 1);
   if (values.size() != times.size() * per_key) file_->fail(place, "has not one value for each time");
   for (std::size_t i = 1; i < times.size(); ++i)
     if (!(times[i] > times[i - 1]))
       file_->fail(place, "key " + std::to_string(i) + " is not later than the one before");
+  for (std::size_t i = 0; track.path == RawPath::kRotation && i < times.size(); ++i) {
+    const std::size_t part = track.interpolation == RawInterpolation::kCubic ? 3 * i + 1 : i;
+    if (std::all_of(values.begin() + static_cast<std::ptrdiff_t>(4 * part),
+                    values.begin() + static_cast<std::ptrdiff_t>(4 * part + 4), [](float v) { return v == 0; }))
+      file_->fail(place, "key " + std::to_string(i) + " is a quaternion of length 0");
+  }
   track.times.assign(times.begin(), times.end());
   track.values.assign(values.begin(), values.end());
   if (times.empty()) return;
   // A matrix is not to be animated, says the format; a track then replaces it, as it does a translation or rotation.
-  scene_->nodes[track.node].fixed = false;
+  if (track.path != RawPath::kWeights) scene_->nodes[track.node].fixed = false;
   scene_->tracks.push_back(std::move(track));
 }
 

@@ -16,7 +16,7 @@ class GltfAnimation {
  public:
   /// Channels that nothing is drawn of.
   struct Counts {
-    std::size_t morphs = 0;
+    std::size_t morphs = 0;    ///< of morph targets that the node's mesh does not have
     std::size_t blinking = 0;  ///< of visibility
     std::size_t pointed = 0;   ///< of what else KHR_animation_pointer reaches
     std::size_t unknown = 0;   ///< of no kind that is known

@@ -2,6 +2,7 @@
 #include "gltf_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <limits>
@@ -81,6 +82,7 @@ std::size_t component_count(const std::string& type) {
   if (type == "VEC2") return 2;
   if (type == "VEC3") return 3;
   if (type == "VEC4") return 4;
+  if (type == "MAT4") return 16;
   return 0;
 }
 
@@ -215,7 +217,7 @@ GltfFile::Accessor GltfFile::accessor(std::uint64_t index, const std::string& pl
   a.count = integer(json, "count", here).value_or(0);
   if (a.count > kMostElements) fail(here, std::to_string(a.count) + " elements are too many");
   a.components = component_count(text(json, "type", here));
-  if (a.components == 0) fail(here, "its type is not SCALAR, VEC2, VEC3 or VEC4");
+  if (a.components == 0) fail(here, "its type is not SCALAR, VEC2, VEC3, VEC4 or MAT4");
   const std::uint64_t type = integer(json, "componentType", here).value_or(0);
   if (component_size(type) == 0) fail(here, "component type " + std::to_string(type) + " is unknown");
   a.type = static_cast<int>(type);
@@ -299,10 +301,37 @@ GltfFile::Floats GltfFile::floats(std::uint64_t index, std::size_t least, std::s
   return f;
 }
 
-std::vector<std::uint32_t> GltfFile::indices(std::uint64_t index, const std::string& place) {
+bool GltfFile::has_data(std::uint64_t index, const std::string& place) const {
+  const Json& json = item("accessors", index, place);
+  return has(json, "bufferView") || has(json, "sparse");
+}
+
+// Single precision may leave of the last row, which is 0, 0, 0, 1, something near it.
+Affine GltfFile::affine_map(const double* by_columns, const char* what, const std::string& place) const {
+  constexpr double kTolerance = 1e-3;
+  const double* const m = by_columns;
+  const double off = std::max({std::abs(m[3]), std::abs(m[7]), std::abs(m[11]), std::abs(m[15] - 1)});
+  if (!(off <= kTolerance)) fail(place, std::string(what) + " is projective: its last row is not 0, 0, 0, 1");
+  return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+}
+
+std::vector<Affine> GltfFile::affine_maps(std::uint64_t index, const std::string& place) {
+  const std::vector<float> values = floats(index, 16, 16, place).values;
+  std::vector<Affine> maps;
+  for (std::size_t i = 0; i < values.size(); i += 16) {
+    const std::vector<double> m(values.begin() + static_cast<std::ptrdiff_t>(i),
+                                values.begin() + static_cast<std::ptrdiff_t>(i + 16));
+    maps.push_back(affine_map(m.data(), "a matrix", place));
+    for (const glm::dvec3& v : {maps.back().x, maps.back().y, maps.back().z, maps.back().origin})
+      if (!is_finite(v)) fail(place, "a matrix is not finite");
+  }
+  return maps;
+}
+
+std::vector<std::uint32_t> GltfFile::indices(std::uint64_t index, const std::string& place, std::size_t components) {
   const Accessor a = accessor(index, place);
   const std::string here = "accessor " + std::to_string(index);
-  if (a.components != 1 || (a.type != 5121 && a.type != 5123 && a.type != 5125))
+  if (a.components != components || (a.type != 5121 && a.type != 5123 && a.type != 5125))
     fail(place, here + " does not hold unsigned integers");
   std::vector<std::uint32_t> out;
   elements(a, out, here);

@@ -14,6 +14,7 @@
 
 #include "gltf_json.hpp"
 #include "side_files.hpp"
+#include "transform.hpp"
 
 namespace kage::scene {
 
@@ -34,13 +35,20 @@ class GltfFile : public GltfJson {
   [[nodiscard]] bool is_binary() const { return is_binary_; }
 
   /// Values of an accessor as floats, normalised integers mapped as glTF says. It has `least` to `most` components:
-  /// 1 (SCALAR) to 4 (VEC4).
+  /// 1 (SCALAR) to 4 (VEC4), or 16 (MAT4).
   struct Floats {
     std::vector<float> values;
     std::size_t components = 0;
   };
   Floats floats(std::uint64_t index, std::size_t least, std::size_t most, const std::string& place);
-  std::vector<std::uint32_t> indices(std::uint64_t index, const std::string& place);
+  /// Unsigned integers, `components` to an element.
+  std::vector<std::uint32_t> indices(std::uint64_t index, const std::string& place, std::size_t components = 1);
+  /// Matrices (MAT4) that are maps. Throws Error where one is projective.
+  std::vector<Affine> affine_maps(std::uint64_t index, const std::string& place);
+  /// The map of a matrix, 16 numbers by columns. Throws Error where it is projective, with `what`.
+  [[nodiscard]] Affine affine_map(const double* by_columns, const char* what, const std::string& place) const;
+  /// Whether an accessor has values of its own, not zeros alone.
+  bool has_data(std::uint64_t index, const std::string& place) const;
 
  private:
   struct View;

@@ -4,6 +4,7 @@
 // float, by libm) and the result differs between its versions; here numbers go from the file into the scene untouched.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "gltf_lights.hpp"
 #include "gltf_meshes.hpp"
 #include "gltf_notes.hpp"
+#include "gltf_skins.hpp"
 #include "import.hpp"
 #include "notes.hpp"
 #include "number/counted.hpp"
@@ -23,6 +25,9 @@ namespace {
 
 using Json = GltfJson::Json;
 
+// Files have floats, and programs that write them compute in floats too.
+constexpr double kUnitTolerance = 1e-3;
+
 class Importer {
  public:
   explicit Importer(GltfFile file) : file_(std::move(file)) {}
@@ -31,7 +36,9 @@ class Importer {
     refuse_required(file_);
     read_frames();
     walk_nodes();
+    skins_.read(node_of_);
     animation_.read(node_of_);
+    skins_.drop_unmoved();
     count_contents();
     write_notes();
     return std::move(scene_);
@@ -49,19 +56,22 @@ class Importer {
   [[nodiscard]] std::vector<std::uint64_t> roots() const;
   void read_map(const Json& json, RawNode& node, const std::string& place);
   void read_content(const Json& json, RawNode& node, std::uint32_t number, bool hidden, const std::string& place);
-  void read_camera(std::uint64_t index, std::uint32_t node);
+  void read_camera(std::uint64_t index, std::uint32_t node, const std::string& asker);
+  double read_half(const Json& view, const char* key, const std::string& place);
   void count_contents();
   void write_notes();
 
   GltfFile file_;
   RawScene scene_;
   GltfMeshes meshes_{file_, scene_};
+  GltfSkins skins_{file_, scene_};
   GltfLights lights_{file_, scene_};
   GltfAnimation animation_{file_, scene_};
   GltfAnimation::NodeNumbers node_of_;
   std::size_t cameras_ = 0;
-  std::size_t skins_ = 0;
   std::size_t instanced_ = 0;
+  std::size_t long_rotations_ = 0;  // quaternions of another length than 1
+  bool mirrored_view_ = false;
   std::size_t hidden_meshes_ = 0;  // nodes with a mesh that are not visible
 };
 
@@ -127,7 +137,7 @@ void Importer::walk_nodes() {
 void Importer::read_map(const Json& json, RawNode& node, const std::string& place) {
   const std::vector<double> m = file_.numbers(json, "matrix", 16, place);
   if (!m.empty()) {  // by columns
-    node.matrix = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
+    node.matrix = file_.affine_map(m.data(), "'matrix'", place);
     return;
   }
   node.fixed = false;
@@ -136,6 +146,10 @@ void Importer::read_map(const Json& json, RawNode& node, const std::string& plac
   const std::vector<double> s = file_.numbers(json, "scale", 3, place);
   if (!t.empty()) node.translation = vec3(t);
   if (!r.empty()) node.rotation = {r[0], r[1], r[2], r[3]};
+  const double length = node.rotation.x * node.rotation.x + node.rotation.y * node.rotation.y +
+                        node.rotation.z * node.rotation.z + node.rotation.w * node.rotation.w;
+  if (!(length > 0)) file_.fail(place, "'rotation' is a quaternion of length 0");
+  long_rotations_ += std::abs(length - 1) > kUnitTolerance ? 1 : 0;
   if (!s.empty()) node.scale = vec3(s);
 }
 
@@ -143,26 +157,36 @@ void Importer::read_map(const Json& json, RawNode& node, const std::string& plac
 void Importer::read_content(const Json& json, RawNode& node, std::uint32_t number, bool hidden,
                             const std::string& place) {
   const auto mesh = file_.integer(json, "mesh", place);
-  const bool skin = file_.has(json, "skin");
+  const auto skin = file_.integer(json, "skin", place);
   const bool instanced = file_.has_extension(json, "EXT_mesh_gpu_instancing", place);
   const Json& lamp = file_.extension(json, "KHR_lights_punctual", place);
   const auto light = file_.integer(lamp, "light", place);
-  if (const auto camera = file_.integer(json, "camera", place)) read_camera(*camera, number);
+  if (const auto camera = file_.integer(json, "camera", place)) read_camera(*camera, number, place);
   if (hidden) {
     hidden_meshes_ += mesh ? 1 : 0;
     return;
   }
-  if (light) lights_.read(*light, number);
+  if (light) lights_.read(*light, number, place);
   if (!mesh) return;
-  node.mesh = meshes_.read(*mesh);
-  skins_ += skin ? 1 : 0;
+  node.mesh = meshes_.read(*mesh, place);
+  node.weights = meshes_.weights(json, *mesh, node.mesh, place);
+  if (skin) skins_.add(number, *skin, place);
   instanced_ += instanced ? 1 : 0;
 }
 
-void Importer::read_camera(std::uint64_t index, std::uint32_t node) {
+/// Half the height or width of what a parallel view shows. One below 0 would mirror it, which the format advises
+/// against.
+double Importer::read_half(const Json& view, const char* key, const std::string& place) {
+  const double half = file_.number(view, key, place).value_or(0);
+  if (half == 0) file_.fail(place, std::string("'") + key + "' is 0 or missing");
+  mirrored_view_ = mirrored_view_ || half < 0;
+  return std::abs(half);
+}
+
+void Importer::read_camera(std::uint64_t index, std::uint32_t node, const std::string& asker) {
   if (++cameras_ > 1) return;
   const std::string place = "camera " + std::to_string(index);
-  const Json& json = file_.item("cameras", index, place);
+  const Json& json = file_.item("cameras", index, asker);
   RawCamera camera;
   camera.node = node;
   const std::string type = file_.text(json, "type", place);
@@ -177,10 +201,8 @@ void Importer::read_camera(std::uint64_t index, std::uint32_t node) {
     camera.aspect = file_.number(view, "aspectRatio", place).value_or(0);
     if (!(camera.near > 0)) file_.fail(place, "'znear' is not above 0");
   } else {
-    camera.half_height = file_.number(view, "ymag", place).value_or(0);
-    if (camera.half_height < 0) camera.half_height = -camera.half_height;
-    if (!(camera.half_height > 0)) file_.fail(place, "'ymag' is 0");
-    camera.aspect = std::abs(file_.number(view, "xmag", place).value_or(0)) / camera.half_height;
+    camera.half_height = read_half(view, "ymag", place);
+    camera.aspect = read_half(view, "xmag", place) / camera.half_height;
     if (camera.near < 0 || !(camera.far > 0)) file_.fail(place, "'znear' is negative, or no 'zfar'");
   }
   if (camera.far != 0 && camera.far <= camera.near) file_.fail(place, "'zfar' is not beyond 'znear'");
@@ -209,9 +231,10 @@ void Importer::write_notes() {
       " alpha of their own, which is ignored: the material's is used");
   add(meshes.thin, "primitive of points or lines is", "primitives of points or lines are", " ignored");
   add(meshes.bare, "primitive without positions is", "primitives without positions are", " ignored");
-  add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
-  add(meshes.morphs, "primitive has", "primitives have", " morph targets, which are ignored");
-  add(channels.morphs, "morph animation is", "morph animations are", " ignored");
+  add(skins_.counts().idle, "skin is", "skins are", " ignored: the mesh has no joints");
+  add(skins_.counts().weightless, "vertex of a skinned mesh has", "vertices of skinned meshes have",
+      " no weights: the first joint moves it");
+  add(channels.morphs, "morph animation is", "morph animations are", " ignored: the mesh has no morph targets");
   add(instanced_, "node's", "nodes'", " GPU instances are ignored: drawn once");
   add(channels.blinking, "node's visibility is", "nodes' visibilities are",
       " animated, which is ignored: shown or hidden as at rest");
@@ -220,6 +243,10 @@ void Importer::write_notes() {
   add(file_.count("scenes") > 1 ? file_.count("scenes") - 1 : 0, "scene is", "scenes are",
       " ignored: the file's default one is drawn");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");
+  if (mirrored_view_)
+    notes.emplace_back("the camera's xmag or ymag is negative: its magnitude is taken, nothing is mirrored");
+  add(long_rotations_, "node's rotation is", "nodes' rotations are", " no unit quaternion: brought to length 1");
+  notes.insert(notes.end(), lights_.defects().begin(), lights_.defects().end());
   add(lights_.counts().black, "light is", "lights are", " black, and ignored");
   add(lights_.counts().shaped_suns, "directional light has", "directional lights have",
       " a shape, which is ignored: the shadows are hard");

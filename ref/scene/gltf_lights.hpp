@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "gltf_file.hpp"
 #include "raw.hpp"
@@ -21,10 +22,13 @@ class GltfLights {
 
   GltfLights(GltfFile& file, RawScene& scene) : file_(&file), scene_(&scene) {}
 
-  /// Appends light `index` of the file, which shines from `node`, to the scene's.
-  void read(std::uint64_t index, std::uint32_t node);
+  /// Appends light `index` of the file, which shines from `node`, to the scene's. `asker`: who names it. A defect is no
+  /// reason to refuse the scene: the light shines as nearly as may be, or not at all, and a note says so.
+  void read(std::uint64_t index, std::uint32_t node, const std::string& asker);
 
   [[nodiscard]] const Counts& counts() const { return counts_; }
+  /// A sentence on each defect.
+  [[nodiscard]] const std::vector<std::string>& defects() const { return defects_; }
 
  private:
   using Json = GltfJson::Json;
@@ -32,9 +36,12 @@ class GltfLights {
   void read_cone(const Json& json, Light& light, const std::string& place);
   void read_shape(const Json& json, Light& light, const std::string& place);
 
+  void tell(const std::string& defect);
+
   GltfFile* file_;
   RawScene* scene_;
   Counts counts_;
+  std::vector<std::string> defects_;
 };
 
 }  // namespace kage::scene

@@ -2,15 +2,16 @@
 #include "gltf_meshes.hpp"
 
 #include <array>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 namespace kage::scene {
 
-std::int32_t GltfMeshes::read(std::uint64_t index) {
+std::int32_t GltfMeshes::read(std::uint64_t index, const std::string& asker) {
   if (const auto known = mesh_of_.find(index); known != mesh_of_.end()) return known->second;
   const std::string place = "mesh " + std::to_string(index);
-  const Json& json = file_->item("meshes", index, place);
+  const Json& json = file_->item("meshes", index, asker);
   RawMesh mesh;
   mesh.name = file_->text(json, "name", place);
   if (mesh.name.empty()) mesh.name = std::to_string(index);
@@ -36,7 +37,10 @@ void GltfMeshes::read_primitive(const Json& json, RawMesh& mesh, const std::stri
     file_->pass_over(json);
     return;
   }
-  if (!file_->array(json, "targets", place).empty()) ++counts_.morphs;
+  // The same data stand in the file without compression where it does not require the extension, or nothing does.
+  constexpr const char* kDraco = "KHR_draco_mesh_compression";
+  if (file_->has_extension(json, kDraco, place) && !file_->has_data(*position, place))
+    file_->fail(place, std::string("is compressed by Draco (") + kDraco + "), which is not read");
   RawPrimitive p;
   p.positions = file_->floats(*position, 3, 3, place).values;
   if (const auto normal = file_->integer(attributes, "NORMAL", place)) {
@@ -55,9 +59,69 @@ void GltfMeshes::read_primitive(const Json& json, RawMesh& mesh, const std::stri
         translucent = translucent || c.values[i] < 1;
     counts_.alpha += translucent ? 1 : 0;
   }
+  read_joints(attributes, p, place);
+  read_targets(json, p, place);
+  if (!mesh.primitives.empty() && mesh.primitives[0].targets.size() != p.targets.size())
+    file_->fail(place, "has not as many morph targets as the mesh's first primitive");
   materials_.read(*file_, json, p, place);
   read_corners(json, p, place);
   mesh.primitives.push_back(std::move(p));
+}
+
+/// JOINTS_0 and WEIGHTS_0, and further sets, four to a set, as one.
+void GltfMeshes::read_joints(const Json& attributes, RawPrimitive& p, const std::string& place) {
+  std::vector<std::vector<std::uint32_t>> joints;
+  std::vector<std::vector<float>> weights;
+  for (std::size_t set = 0;; ++set) {
+    const auto of_joints = file_->integer(attributes, ("JOINTS_" + std::to_string(set)).c_str(), place);
+    const auto of_weights = file_->integer(attributes, ("WEIGHTS_" + std::to_string(set)).c_str(), place);
+    if (!of_joints && !of_weights) break;
+    if (!of_joints || !of_weights) file_->fail(place, "has joints without weights, or weights without joints");
+    joints.push_back(file_->indices(*of_joints, place, 4));
+    weights.push_back(file_->floats(*of_weights, 4, 4, place).values);
+    if (joints.back().size() != 4 * p.vertex_count() || weights.back().size() != 4 * p.vertex_count())
+      file_->fail(place, "has more or fewer joints or weights than positions");
+    for (const float w : weights.back())
+      if (!(w >= 0) || !std::isfinite(w)) file_->fail(place, "a joint's weight is negative or not finite");
+  }
+  for (std::size_t v = 0; v < p.vertex_count(); ++v)
+    for (std::size_t set = 0; set < joints.size(); ++set)
+      for (std::size_t k = 4 * v; k < 4 * v + 4; ++k) {
+        p.joints.push_back(joints[set][k]);
+        p.weights.push_back(weights[set][k]);
+      }
+}
+
+void GltfMeshes::read_targets(const Json& json, RawPrimitive& p, const std::string& place) {
+  const Json& targets = file_->array(json, "targets", place);
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const std::string here = place + " target " + std::to_string(t);
+    if (!targets[t].is_object()) file_->fail(here, "not an object");
+    RawTarget target;
+    for (const auto& [key, to] : {std::pair{"POSITION", &target.positions}, {"NORMAL", &target.normals}}) {
+      const auto accessor = file_->integer(targets[t], key, here);
+      if (!accessor) continue;
+      *to = file_->floats(*accessor, 3, 3, here).values;
+      if (to->size() != p.positions.size()) file_->fail(here, "has more or fewer values than the primitive positions");
+      for (const float v : *to)
+        if (!std::isfinite(v)) file_->fail(here, "holds what is not finite");
+    }
+    p.targets.push_back(std::move(target));
+  }
+}
+
+std::vector<double> GltfMeshes::weights(const Json& json, std::uint64_t index, std::int32_t number,
+                                        const std::string& place) const {
+  const std::vector<RawPrimitive>& primitives = scene_->meshes[static_cast<std::size_t>(number)].primitives;
+  const std::size_t targets = primitives.empty() ? 0 : primitives[0].targets.size();
+  if (targets == 0) {
+    (void)file_->has(json, "weights");
+    return {};
+  }
+  const Json& mesh = file_->item("meshes", index, place);
+  const std::vector<double> of_mesh = file_->numbers(mesh, "weights", targets, "mesh " + std::to_string(index));
+  const std::vector<double> own = file_->numbers(json, "weights", targets, place);
+  return !own.empty() ? own : !of_mesh.empty() ? of_mesh : std::vector<double>(targets, 0);
 }
 
 void GltfMeshes::read_corners(const Json& json, RawPrimitive& p, const std::string& place) {

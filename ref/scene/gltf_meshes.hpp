@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "gltf_file.hpp"
 #include "gltf_materials.hpp"
@@ -17,7 +18,6 @@ class GltfMeshes {
  public:
   /// What is not drawn as the file has it, by primitives.
   struct Counts {
-    std::size_t morphs = 0;
     std::size_t thin = 0;   ///< points and lines
     std::size_t bare = 0;   ///< without positions
     std::size_t alpha = 0;  ///< by the colours of their vertices
@@ -25,8 +25,14 @@ class GltfMeshes {
 
   GltfMeshes(GltfFile& file, RawScene& scene) : file_(&file), scene_(&scene) {}
 
-  /// The number in the scene of mesh `index` of the file, which is appended when it is first asked for.
-  std::int32_t read(std::uint64_t index);
+  /// The number in the scene of mesh `index` of the file, which is appended when it is first asked for. `asker`: who
+  /// names it.
+  std::int32_t read(std::uint64_t index, const std::string& asker);
+
+  /// Weights of its morph targets: those of the node `json`, which has mesh `index` of the file, `number` in the scene,
+  /// else those of the mesh, else 0.
+  [[nodiscard]] std::vector<double> weights(const GltfJson::Json& json, std::uint64_t index, std::int32_t number,
+                                            const std::string& place) const;
 
   [[nodiscard]] const GltfMaterials& materials() const { return materials_; }
   [[nodiscard]] const Counts& counts() const { return counts_; }
@@ -35,6 +41,8 @@ class GltfMeshes {
   using Json = GltfJson::Json;
 
   void read_primitive(const Json& json, RawMesh& mesh, const std::string& place);
+  void read_joints(const Json& attributes, RawPrimitive& primitive, const std::string& place);
+  void read_targets(const Json& json, RawPrimitive& primitive, const std::string& place);
   void read_corners(const Json& json, RawPrimitive& primitive, const std::string& place);
 
   GltfFile* file_;

@@ -61,21 +61,27 @@ bool ends(std::string_view text, std::string_view with) {
 }
 
 // Keys that may be passed over without a word: they change no picture, or belong to something of which another
-// sentence speaks (textures, skins, morph targets, masks). docs/scenes.md lists them.
+// sentence speaks (textures, masks). docs/scenes.md lists them.
 bool is_silent(std::string_view way) {
-  constexpr std::array<std::string_view, 11> kSilent{
-      "accessors/max",  "accessors/min", "bufferViews/target", "images", "materials/alphaCutoff",
-      "meshes/weights", "nodes/weights", "samplers",           "skins",  "textures",
-      "extensionsUsed"};
+  constexpr std::array<std::string_view, 11> kSilent{"accessors/max",
+                                                     "accessors/min",
+                                                     "bufferViews/target",
+                                                     "images",
+                                                     "materials/alphaCutoff",
+                                                     "meshes/weights",
+                                                     "samplers",
+                                                     "skins",
+                                                     "textures",
+                                                     "skins/skeleton",
+                                                     "extensionsUsed"};
   constexpr std::string_view kAttributes = "meshes/primitives/attributes/";
   if (std::find(kSilent.begin(), kSilent.end(), way) != kSilent.end()) return true;
-  if (begins(way, "asset/") || begins(way, "meshes/primitives/targets/") || way == "name" || ends(way, "/name") ||
-      ends(way, "Texture"))
+  if (begins(way, "asset/") || begins(way, "meshes/primitives/targets/TEXCOORD_") ||
+      way == "meshes/primitives/targets/TANGENT" || way == "name" || ends(way, "/name") || ends(way, "Texture"))
     return true;
   if (!begins(way, kAttributes)) return false;
   const std::string_view attribute = way.substr(kAttributes.size());
-  return begins(attribute, "TEXCOORD_") || attribute == "TANGENT" || begins(attribute, "JOINTS_") ||
-         begins(attribute, "WEIGHTS_") || begins(attribute, "_");
+  return begins(attribute, "TEXCOORD_") || attribute == "TANGENT" || begins(attribute, "_");
 }
 
 void note_names(const std::vector<std::string>& names, const char* one, const char* many,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "transform.hpp"
 
@@ -36,6 +37,10 @@ class Builder {
     assemble(true);
     shade();
     for (MeshComponent& c : mesh_.components) {
+      if (mesh_.motion && c.convex) {
+        c.convex = false;
+        c.reason.kind = Reason::Kind::kMoved;
+      }
       c.first_polygon = static_cast<std::uint32_t>(mesh_.polygons.size());
       append_polygons(mesh_.vertices, std::span(mesh_.triangles).subspan(c.first, c.count),
                       std::span(mesh_.shading_corners).subspan(c.first, c.count), mesh_.shading,
@@ -53,6 +58,7 @@ class Builder {
 
   void collect();
   void assemble(bool translucent);
+  void part_moved(std::vector<std::uint32_t>& number);
   void keep_used_vertices();
   void shade();
   void shade_component(const MeshComponent& c);
@@ -69,8 +75,9 @@ class Builder {
   [[nodiscard]] std::uint8_t alpha(const Source& s) const {
     return static_cast<std::uint8_t>(std::lround(std::clamp(raw_.primitives[s.primitive].alpha, 0.0, 1.0) * 255));
   }
-  std::uint32_t add(const ShadingVertex& v) {
+  std::uint32_t add(const ShadingVertex& v, const Motion::Normal& from) {
     mesh_.shading.push_back(v);
+    if (mesh_.motion) mesh_.motion->shading.push_back(from);
     return static_cast<std::uint32_t>(mesh_.shading.size() - 1);
   }
 
@@ -92,7 +99,9 @@ void Builder::collect() {
     positions.insert(positions.end(), p.positions.begin(), p.positions.end());
   }
   slots_.assign(positions.size() / 3 * 2, kNoSlot);
-  const std::vector<std::uint32_t> number = weld(positions, mesh_.vertices);
+  std::vector<std::uint32_t> number = weld(positions, mesh_.vertices);
+  const auto moves = [](const RawPrimitive& p) { return !p.joints.empty() || !p.targets.empty(); };
+  if (std::any_of(raw_.primitives.begin(), raw_.primitives.end(), moves)) part_moved(number);
   std::uint32_t first_face = 0;
   for (std::uint32_t k = 0; k < raw_.primitives.size(); ++k) {
     const RawPrimitive& p = raw_.primitives[k];
@@ -111,6 +120,30 @@ void Builder::collect() {
     first_face += p.face_count;
   }
   keep_used_vertices();
+}
+
+// Vertices at one place that are not moved alike are not one.
+void Builder::part_moved(std::vector<std::uint32_t>& number) {
+  mesh_.motion = motion_of(raw_);
+  std::vector<std::vector<std::uint32_t>> there(mesh_.vertices.size());  // of each place the sources that part
+  std::vector<std::uint32_t> own(number.size());
+  std::vector<glm::dvec3> vertices;
+  std::vector<std::uint32_t>& sources = mesh_.motion->sources;
+  for (std::uint32_t source = 0; source < number.size(); ++source) {
+    std::vector<std::uint32_t>& others = there[number[source]];
+    const auto same = std::find_if(others.begin(), others.end(),
+                                   [&](std::uint32_t other) { return mesh_.motion->same(other, source); });
+    if (same != others.end()) {
+      own[source] = own[*same];
+      continue;
+    }
+    others.push_back(source);
+    own[source] = static_cast<std::uint32_t>(vertices.size());
+    vertices.push_back(mesh_.vertices[number[source]]);
+    sources.push_back(source);
+  }
+  number = std::move(own);
+  mesh_.vertices = std::move(vertices);
 }
 
 // What is opaque and what is translucent do not hang together: glass in a wall leaves a hole in it.
@@ -151,9 +184,11 @@ void Builder::keep_used_vertices() {
   for (std::size_t v = 0; v < number.size(); ++v) {
     if (number[v] == kNoSlot) continue;
     number[v] = kept;
+    if (mesh_.motion) mesh_.motion->sources[kept] = mesh_.motion->sources[v];
     mesh_.vertices[kept++] = mesh_.vertices[v];
   }
   mesh_.vertices.resize(kept);
+  if (mesh_.motion) mesh_.motion->sources.resize(kept);
   for (Corners& c : welded_)
     for (std::uint32_t& v : c) v = number[v];
 }
@@ -201,12 +236,13 @@ void Builder::shade_component(const MeshComponent& c) {
       const glm::dvec3 n = file_normal(s, i);
       if (n.x == 0 && n.y == 0 && n.z == 0) {
         if (!p.normals.empty()) ++mesh_.bad_normals;
-        if (of_face == kNoSlot || !p.colors.empty()) of_face = add({face_normal(t), color(s, i)});
+        if (of_face == kNoSlot || !p.colors.empty()) of_face = add({face_normal(t), color(s, i)}, {t, true, false});
         corners[i] = of_face;
         continue;
       }
-      std::uint32_t& slot = slots_[2 * (first_vertex_[s.primitive] + s.vertex[i]) + (negate ? 1 : 0)];
-      if (slot == kNoSlot) slot = add({negate ? -n : n, color(s, i)});
+      const auto source = static_cast<std::uint32_t>(first_vertex_[s.primitive] + s.vertex[i]);
+      std::uint32_t& slot = slots_[2 * std::size_t{source} + (negate ? 1 : 0)];
+      if (slot == kNoSlot) slot = add({negate ? -n : n, color(s, i)}, {source, false, negate});
       corners[i] = slot;
     }
     const auto differ = [&](std::uint32_t a, std::uint32_t b) {

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "deform.hpp"
 #include "kage/scene.hpp"
 #include "polygons.hpp"
 #include "raw.hpp"
@@ -26,6 +28,7 @@ struct Mesh {
   std::vector<std::uint32_t> corners;  ///< of polygons, into vertices
   bool has_area = false;               ///< some triangle's area is not 0: there is something to see
   bool smooth = false;                 ///< shading differs between corners of some triangle
+  std::optional<Motion> motion;        ///< its vertices move by themselves: none of its components is convex
 
   std::uint32_t dropped = 0;      ///< triangles left out because they repeat a vertex
   std::uint32_t turned = 0;       ///< triangles reversed to agree with their neighbours

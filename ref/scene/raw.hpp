@@ -16,6 +16,12 @@
 
 namespace kage::scene {
 
+/// How far a morph target moves each vertex and its normal at weight 1.
+struct RawTarget {
+  std::vector<float> positions;  ///< x, y, z of each vertex, or none
+  std::vector<float> normals;    ///< as many, or none
+};
+
 /// Corners that share one material. Attributes lie in the order of the file's vertices.
 struct RawPrimitive {
   glm::dvec3 color{1, 1, 1};           ///< base or diffuse colour
@@ -29,6 +35,9 @@ struct RawPrimitive {
   std::vector<std::uint32_t>
       faces;                     ///< for each triangle the file's face it was cut from, counted within the primitive
   std::uint32_t face_count = 0;  ///< of the file, lines and points not counted
+  std::vector<std::uint32_t> joints{};  ///< that move each vertex, as many for each, into those of a skin; or none
+  std::vector<float> weights{};         ///< of each of these; their sum may be any
+  std::vector<RawTarget> targets{};     ///< as many in all primitives of a mesh
 
   [[nodiscard]] std::size_t vertex_count() const { return positions.size() / 3; }
   [[nodiscard]] std::size_t triangle_count() const { return faces.size(); }
@@ -40,19 +49,27 @@ struct RawMesh {
   std::vector<RawPrimitive> primitives;
 };
 
+/// Nodes that move the vertices of a mesh.
+struct RawSkin {
+  std::vector<std::uint32_t> joints;  ///< nodes
+  std::vector<Affine> inverse;        ///< for each, from the mesh's space to the joint's own
+};
+
 /// A node of the hierarchy. Parents come before their children.
 struct RawNode {
   std::string name;
   std::int32_t parent = -1;
   std::int32_t mesh = -1;
-  bool fixed = true;  ///< the map is `matrix`; otherwise it is composed of translation, rotation and scale
+  std::int32_t skin = -1;         ///< it, not the node, places the mesh
+  std::vector<double> weights{};  ///< of the mesh's morph targets
+  bool fixed = true;              ///< the map is `matrix`; otherwise it is composed of translation, rotation and scale
   Affine matrix;
   glm::dvec3 translation{0, 0, 0};
   Quaternion rotation;
   glm::dvec3 scale{1, 1, 1};
 };
 
-enum class RawPath : std::uint8_t { kTranslation, kRotation, kScale };
+enum class RawPath : std::uint8_t { kTranslation, kRotation, kScale, kWeights };
 enum class RawInterpolation : std::uint8_t { kLinear, kStep, kCubic };
 
 /// Keys of one property of one node. Times rise strictly.
@@ -62,8 +79,11 @@ struct RawTrack {
   RawInterpolation interpolation = RawInterpolation::kLinear;
   std::vector<double> times;
   std::vector<double> values;  ///< 3 a key, 4 (x, y, z, w) for rotations; kCubic: in-tangent, value, out-tangent
+  std::uint32_t targets = 0;   ///< kWeights: values a key
 
-  [[nodiscard]] std::size_t width() const { return path == RawPath::kRotation ? 4 : 3; }
+  [[nodiscard]] std::size_t width() const {
+    return path == RawPath::kWeights ? targets : path == RawPath::kRotation ? 4 : 3;
+  }
 };
 
 /// A camera in the frame of its node.
@@ -87,6 +107,7 @@ struct RawLight {
 
 struct RawScene {
   std::vector<RawMesh> meshes;
+  std::vector<RawSkin> skins;
   std::vector<RawNode> nodes;
   std::vector<RawTrack> tracks;
   double start_time = 0;  ///< of the animation; its end is the last key

@@ -29,18 +29,29 @@ using scene::Affine;
 
 // A mesh placed in the world by a node.
 struct Object {
-  std::uint32_t node;
+  std::uint32_t node;  // that places it: of a skin, the first joint
   std::uint32_t mesh;
+  std::uint32_t carrier;  // the node that has the mesh
+  std::int32_t skin;      // -1: none
 };
 
-void append(const Affine& world, const scene::Mesh& mesh, std::uint32_t object, SceneFrame& frame) {
-  const bool mirrored = world.determinant() < 0;
+/// A mesh as its node places it.
+scene::Moved placed(const Affine& world, const scene::Mesh& mesh) {
+  scene::Moved out;
+  for (const glm::dvec3& p : mesh.vertices) out.vertices.push_back(world.point(p));
+  for (const ShadingVertex& s : mesh.shading)
+    out.shading.push_back({scene::unit(world.normal(s.normal), s.normal), s.color});
+  out.mirrored = world.determinant() < 0;
+  return out;
+}
+
+void append(const scene::Moved& placed, const scene::Mesh& mesh, std::uint32_t object, SceneFrame& frame) {
+  const bool mirrored = placed.mirrored;
   const auto vertex = static_cast<std::uint32_t>(frame.vertices.size());
   const auto shading = static_cast<std::uint32_t>(frame.shading.size());
   const auto triangle = static_cast<std::uint32_t>(frame.triangles.size());
-  for (const glm::dvec3& p : mesh.vertices) frame.vertices.push_back(world.point(p));
-  for (const ShadingVertex& s : mesh.shading)
-    frame.shading.push_back({scene::unit(world.normal(s.normal), s.normal), s.color});
+  frame.vertices.insert(frame.vertices.end(), placed.vertices.begin(), placed.vertices.end());
+  frame.shading.insert(frame.shading.end(), placed.shading.begin(), placed.shading.end());
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     scene::Corners v = mesh.triangles[i];
     scene::Corners s = mesh.shading_corners[i];
@@ -87,6 +98,8 @@ struct Scene::Data {
   void build_meshes(const std::function<void()>& wait);
   void place_objects();
   void describe();
+  /// Where an object is at a time, `world` being that of the nodes.
+  [[nodiscard]] scene::Moved where(const Object& object, const std::vector<Affine>& world, double time) const;
   /// Vertices, or corners of boxes round objects, at some times of the animation.
   [[nodiscard]] std::vector<glm::dvec3> points() const;
   void measure();
@@ -133,7 +146,9 @@ void Scene::Data::place_objects() {
     const auto number = static_cast<std::uint32_t>(node.mesh);
     const scene::Mesh& mesh = meshes[number];
     if (mesh.triangles.empty()) continue;
-    objects.push_back({i, number});
+    const bool skinned = node.skin >= 0 && mesh.motion;
+    const std::uint32_t at = skinned ? raw.skins[static_cast<std::size_t>(node.skin)].joints[0] : i;
+    objects.push_back({at, number, i, skinned ? node.skin : -1});
     if (!mesh.has_area) ++flat;
     std::string called = scene::one_line(node.name.empty() ? raw.meshes[number].name : node.name, 80);
     object_names.push_back(called.empty() ? "object " + std::to_string(objects.size() - 1) : std::move(called));
@@ -157,6 +172,18 @@ void Scene::Data::describe() {
   if (raw.lights.empty()) notes.emplace_back("no light: a directional one is added");
 }
 
+scene::Moved Scene::Data::where(const Object& object, const std::vector<Affine>& world, double time) const {
+  const scene::Mesh& mesh = meshes[object.mesh];
+  if (!mesh.motion) return placed(world[object.node], mesh);
+  std::vector<Affine> bones{world[object.node]};
+  if (object.skin >= 0) {
+    const scene::RawSkin& skin = raw.skins[static_cast<std::size_t>(object.skin)];
+    bones.clear();
+    for (std::size_t k = 0; k < skin.joints.size(); ++k) bones.push_back(world[skin.joints[k]] * skin.inverse[k]);
+  }
+  return scene::moved(mesh, bones, scene::morph_weights(raw, object.carrier, time));
+}
+
 // The ball that holds all frames: what moves, by the corners of its box at a number of times.
 std::vector<glm::dvec3> Scene::Data::points() const {
   std::vector<glm::dvec3> points;
@@ -165,8 +192,9 @@ std::vector<glm::dvec3> Scene::Data::points() const {
     const std::vector<Affine> world = scene::pose(raw, time(step, steps), frame);
     for (const Object& object : objects) {
       const std::vector<glm::dvec3>& vertices = meshes[object.mesh].vertices;
-      if (steps == 1) {
-        for (const glm::dvec3& p : vertices) points.push_back(world[object.node].point(p));
+      if (steps == 1 || meshes[object.mesh].motion) {
+        const std::vector<glm::dvec3> now = where(object, world, time(step, steps)).vertices;
+        points.insert(points.end(), now.begin(), now.end());
         continue;
       }
       SpaceBox box;
@@ -294,15 +322,14 @@ SceneFrame Scene::frame(int index, int count) const {
   std::size_t component = 0;
   for (std::uint32_t i = 0; i < d.objects.size(); ++i) {
     const Object& object = d.objects[i];
-    const Affine& to_world = world[object.node];
     const scene::Mesh& mesh = d.meshes[object.mesh];
     const std::size_t first = frame.vertices.size();
-    append(to_world, mesh, i, frame);
+    append(d.where(object, world, d.time(index, count)), mesh, i, frame);
     for (std::size_t v = first; v < frame.vertices.size(); ++v)
       if (!is_finite(frame.vertices[v]))
         throw Error(d.place + ": object '" + d.object_names[i] + "' vertex " + std::to_string(v) +
                     ": position is not finite");
-    const bool flattened = to_world.determinant() == 0;
+    const bool flattened = !mesh.motion && world[object.node].determinant() == 0;
     for (std::size_t k = 0; k < mesh.components.size(); ++k, ++component) {
       Component& c = frame.components[component];
       if (!flattened || !c.closed) continue;

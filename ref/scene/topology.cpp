@@ -245,6 +245,8 @@ std::string Reason::text(std::uint32_t first_vertex, std::uint32_t first_triangl
       return "too large to be tested for convexity";
     case Kind::kWound:
       return "it surrounds its inside more than once";
+    case Kind::kMoved:
+      return "a skin or morph targets move its vertices";
   }
   return "";
 }

@@ -25,6 +25,7 @@ struct Reason {
     kOutside,        ///< vertex a lies outside the plane of triangle n of the component
     kLarge,          ///< more work than the test's limit
     kWound,          ///< it surrounds its inside more than once
+    kMoved,          ///< its vertices move by themselves
   };
   Kind kind = Kind::kNone;
   std::uint32_t a = 0;

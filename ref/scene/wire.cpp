@@ -76,15 +76,20 @@ template <typename Archive, typename P>
 void fields(Archive& ar, P& v) {
   using T = std::remove_const_t<P>;
   if constexpr (std::is_same_v<T, RawPrimitive>)
-    ar(v.color, v.alpha, v.unlit, v.double_sided, v.positions, v.normals, v.colors, v.corners, v.faces, v.face_count);
+    ar(v.color, v.alpha, v.unlit, v.double_sided, v.positions, v.normals, v.colors, v.corners, v.faces, v.face_count,
+       v.joints, v.weights, v.targets);
+  else if constexpr (std::is_same_v<T, RawTarget>)
+    ar(v.positions, v.normals);
+  else if constexpr (std::is_same_v<T, RawSkin>)
+    ar(v.joints, v.inverse);
   else if constexpr (std::is_same_v<T, RawMesh>)
     ar(v.name, v.primitives);
   else if constexpr (std::is_same_v<T, RawNode>)
-    ar(v.name, v.parent, v.mesh, v.fixed, v.matrix, v.translation, v.rotation, v.scale);
+    ar(v.name, v.parent, v.mesh, v.skin, v.weights, v.fixed, v.matrix, v.translation, v.rotation, v.scale);
   else if constexpr (std::is_same_v<T, RawTrack>)
-    ar(v.node, v.path, v.interpolation, v.times, v.values);
+    ar(v.node, v.path, v.interpolation, v.times, v.values, v.targets);
   else
-    ar(v.meshes, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.contents, v.notes);
+    ar(v.meshes, v.skins, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.contents, v.notes);
 }
 
 // Of fixed size and without pointers: its bytes are its value.

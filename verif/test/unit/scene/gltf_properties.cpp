@@ -30,6 +30,18 @@ Changes with_texture(const char* where) {
   return changes;
 }
 
+/// Joints and weights of the mesh's vertices, out of bytes that are there.
+Changes with_joints(const Changes& more) {
+  Changes changes{{"/accessors/4", "{\"bufferView\": 0, \"componentType\": 5121, \"count\": 3, \"type\": \"VEC4\"}"},
+                  {"/accessors/5",
+                   "{\"bufferView\": 0, \"byteOffset\": 24, \"componentType\": 5121, \"normalized\": true, \"count\": "
+                   "3, \"type\": \"VEC4\"}"},
+                  {"/meshes/0/primitives/0/attributes/JOINTS_0", "4"},
+                  {"/meshes/0/primitives/0/attributes/WEIGHTS_0", "5"}};
+  changes.insert(changes.end(), more.begin(), more.end());
+  return changes;
+}
+
 /// Every property of glTF 2.0, section 5 of the specification; those of objects that nothing but textures refer to, as
 /// sampler.wrapS, go with the row of the texture.
 const std::vector<Row> kProperties{
@@ -175,11 +187,13 @@ const std::vector<Row> kProperties{
      {{"/meshes/0/primitives/0/attributes/COLOR_1", "0"}},
      Fate::told,
      "meshes/primitives/attributes/COLOR_1"},
-    {"primitive.attributes, TEXCOORD_0, TANGENT, JOINTS_0, WEIGHTS_0, _OWN",
+    {"primitive.attributes, JOINTS_0 and WEIGHTS_0", with_joints({}), Fate::silent},
+    {"node.skin, skin.joints", with_joints({{"/nodes/0/skin", "0"}, {"/skins", "[{\"joints\": [1]}]"}}), Fate::drawn},
+    {"skin.inverseBindMatrices, which these are not",
+     with_joints({{"/nodes/0/skin", "0"}, {"/skins", "[{\"joints\": [0], \"inverseBindMatrices\": 0}]"}}), Fate::drawn},
+    {"primitive.attributes, TEXCOORD_0, TANGENT, _OWN",
      {{"/meshes/0/primitives/0/attributes/TEXCOORD_0", "0"},
       {"/meshes/0/primitives/0/attributes/TANGENT", "0"},
-      {"/meshes/0/primitives/0/attributes/JOINTS_0", "0"},
-      {"/meshes/0/primitives/0/attributes/WEIGHTS_0", "0"},
       {"/meshes/0/primitives/0/attributes/_OWN", "0"}},
      Fate::silent},
     {"primitive.indices", {{"/meshes/0/primitives/0/indices", "0"}}, Fate::drawn},
@@ -189,10 +203,13 @@ const std::vector<Row> kProperties{
      {{"/meshes/0/primitives/1", "{\"attributes\": {\"POSITION\": 0}, \"mode\": 1}"}},
      Fate::told,
      "1 primitive of points or lines"},
-    {"primitive.targets",
-     {{"/meshes/0/primitives/0/targets", "[{\"POSITION\": 0}]"}},
-     Fate::told,
-     "1 primitive has morph targets"},
+    {"primitive.targets", {{"/meshes/0/primitives/0/targets", "[{\"POSITION\": 0}]"}}, Fate::silent},
+    {"primitive.targets and mesh.weights",
+     {{"/meshes/0/primitives/0/targets", "[{\"POSITION\": 0}]"}, {"/meshes/0/weights", "[1]"}},
+     Fate::drawn},
+    {"primitive.targets and node.weights",
+     {{"/meshes/0/primitives/0/targets", "[{\"POSITION\": 0}]"}, {"/nodes/0/weights", "[1]"}},
+     Fate::drawn},
     {"node.camera", {{"/nodes/1/camera", "3"}}, Fate::drawn},
     {"node.children", {{"/nodes/0/children", "[9]"}}, Fate::drawn},
     {"node.skin", {{"/nodes/0/skin", "0"}, {"/skins", "[{\"joints\": [0]}]"}}, Fate::told, "1 skin is ignored"},
