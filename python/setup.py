@@ -20,10 +20,12 @@ class BuildWithLibrary(build_py):
         super().run()
         copy = pathlib.Path(self.build_lib) / "kage/libkage_golden.so"
         copy.unlink(missing_ok=True)  # an older build's
+        # Where it will be once it is built: kage.golden looks there too, and names the place where it is missing.
+        (copy.parent / "built_library.txt").write_text(f"{LIBRARY}\n")
         if LIBRARY.exists():
             shutil.copyfile(LIBRARY.resolve(), copy)
         else:
-            print(f"{LIBRARY}: missing, so the package has no golden core: build kage (tools/demo) and install it again")
+            print(f"{LIBRARY}: missing: the package takes it from there once kage is built (tools/demo)")
 
 
 class ForThisMachine(Distribution):

@@ -2,7 +2,8 @@
 """The golden core, by libkage_golden (ref/include/kage/golden.h has the contract of each function).
 
 The library is looked for in $KAGE_GOLDEN, beside this file (`pip install ./python` puts it there where the source tree has
-been built), in the source tree's build/release/lib, and where the system looks for libraries.
+been built), in the build/release/lib of the source tree that it lies in or was installed from, and where the system looks
+for libraries.
 """
 
 from __future__ import annotations
@@ -92,7 +93,16 @@ def _candidates() -> Iterator[str]:
         yield os.environ["KAGE_GOLDEN"]
         return
     yield from map(str, (_HERE / "libkage_golden.so", _HERE.parents[1] / "build/release/lib/libkage_golden.so"))
+    yield _installed_from()
     yield ctypes.util.find_library("kage_golden") or ""
+
+
+def _installed_from() -> str:
+    """The library of the source tree that this package was installed from, built or not; "" if it was not installed."""
+    try:
+        return (_HERE / "built_library.txt").read_text().strip()
+    except OSError:
+        return ""
 
 
 @functools.cache
@@ -100,8 +110,9 @@ def library() -> ctypes.CDLL:
     """The library, loaded once. Raises GoldenError where it is not found or is of another version."""
     path = next((p for p in _candidates() if p and (os.sep not in p or os.path.exists(p))), None)
     if path is None:
+        place = os.environ.get("KAGE_GOLDEN") or _installed_from()
         raise GoldenError(
-            "libkage_golden.so: not found: build kage (tools/demo) and install this package again, or name it in $KAGE_GOLDEN"
+            f"libkage_golden.so: not found{f' as {place}' if place else ''}: build kage (tools/demo), or name it in $KAGE_GOLDEN"
         )
     try:
         lib = ctypes.CDLL(path)

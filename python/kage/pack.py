@@ -41,7 +41,7 @@ class Pack:
             self.manifest = json.loads(path.read_text())
         except OSError as e:
             raise PackError(f"{path}: {e.strerror}") from e
-        except ValueError as e:
+        except (ValueError, RecursionError) as e:  # the latter: nested too deeply
             raise PackError(f"{path}: not JSON: {e}") from e
         if not isinstance(self.manifest, dict) or self.manifest.get("schema") != SCHEMA:
             raise PackError(f"{path}: not a pack of format {SCHEMA}")
@@ -91,7 +91,9 @@ def write_pack(source: str | os.PathLike[str], out: str | os.PathLike[str], opti
     built = pathlib.Path(__file__).resolve().parents[2] / "build/release/bin/kage"
     program = os.environ.get("KAGE") or (str(built) if built.exists() else shutil.which("kage"))
     if not program:
-        raise PackError("kage: not found: build it (tools/demo) and put build/release/bin into PATH, or name the program in $KAGE")
+        raise PackError(
+            "kage: not found: build it (tools/demo) and put build/release/bin into PATH, or name the program in $KAGE"
+        )
     try:
         done = subprocess.run(
             [program, "vectors", os.fspath(source), "--out", os.fspath(out), *options], capture_output=True, text=True
@@ -99,5 +101,7 @@ def write_pack(source: str | os.PathLike[str], out: str | os.PathLike[str], opti
     except OSError as e:
         raise PackError(f"{program}: {e.strerror}") from e
     if done.returncode != 0:
-        raise PackError(done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"{program}: {done.returncode}")
+        raise PackError(
+            done.stderr.strip().splitlines()[-1] if done.stderr.strip() else f"{program}: {done.returncode}"
+        )
     return Pack(out)

@@ -138,6 +138,30 @@ with tempfile.TemporaryDirectory() as name:
     if done.returncode != 0:
         fail(f"pip install: {done.stderr[-500:]}")
     del os.environ["KAGE_GOLDEN"]
+    # Installed before anything is built: the library is named where it is missing, and found once it is there. Into a venv, as
+    # the README says, for Debian's own Python refuses packages.
+    later, venv = folder / "later", folder / "venv"
+    subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", venv], check=True)
+    early = [
+        venv / "bin/pip",
+        "install",
+        "--quiet",
+        "--no-build-isolation",
+        "--no-deps",
+        "--no-index",
+        folder / "python",
+    ]
+    done = subprocess.run(early, env=os.environ | {"KAGE_BUILD": str(later)}, capture_output=True, text=True)
+    if done.returncode != 0:
+        fail(f"pip install into a venv: {done.stderr[-500:]}")
+    ask = [venv / "bin/python", "-c", "import kage; print(kage.Golden('tiny').config.Z_BITS)"]
+    missing = subprocess.run(ask, cwd=folder, capture_output=True, text=True)
+    if f"libkage_golden.so: not found as {later}/lib/libkage_golden.so: build kage" not in missing.stderr:
+        fail(f"a library that is not built yet: {missing.stderr}")
+    (later / "lib").mkdir(parents=True)
+    shutil.copy(library, later / "lib/libkage_golden.so")
+    found = subprocess.run(ask, cwd=folder, env=os.environ | {"KAGE_DATA_DIR": source}, capture_output=True, text=True)
+    same("a library that is built later", (found.returncode, found.stderr), (0, ""))
     told = subprocess.run([sys.executable, "-c", "import kage; print(kage.__file__, kage.Golden({'Z_BITS': 16}).config.Z_BITS)"], env=os.environ | {"PYTHONPATH": str(into)}, cwd=folder, capture_output=True, text=True)  # fmt: skip
     same("the installed package", told.stdout.split(), [str(into / "kage/__init__.py"), "16"])
 
@@ -145,6 +169,14 @@ with tempfile.TemporaryDirectory() as name:
     readme = pathlib.Path(f"{source}/python/README.md").read_text()
     commands, example = (re.search(f"```{language}\n(.*?)```", readme, re.S)[1] for language in ("sh", "python"))
     same("the README's first command", commands.split()[0], "tools/demo")
+    for page in ("python/README.md", "examples/cocotb/README.md"):
+        lines = pathlib.Path(f"{source}/{page}").read_text().splitlines()
+        first = {
+            word: next((i for i, text in enumerate(lines) if text.startswith(word)), -1)
+            for word in ("python3 -m venv", "pip install")
+        }
+        if not 0 <= first["python3 -m venv"] < first["pip install"]:
+            fail(f"{page}: Debian's Python refuses `pip install` without a venv before it")
     built = pathlib.Path(library).resolve().parents[1]
     if (built / "build.ninja").exists():
         targets = re.search("--target (.*)", pathlib.Path(f"{source}/tools/demo").read_text())[1].split()
