@@ -41,8 +41,8 @@ from monitors import MONITORS, leave_out, unwatched
 from mutants import put_in
 from ports import write_monitor
 from runtime import Runtime
-from sources import HERE, PATTERNS, RTL, files, only, places
-from steps import Log, end_all, fail, run
+from sources import HERE, PATTERNS, RTL, TOP, files, only, places
+from steps import Log, end_all, fail, run, without_blanks
 
 FROM_VERILATOR = HERE / "from_verilator.hpp"
 FAULTS = only("fault").parent
@@ -105,6 +105,8 @@ def main():
     work = pathlib.Path(args.keep).resolve() if args.keep else pathlib.Path(tempfile.mkdtemp(prefix="kage-model-"))
     try:
         work.mkdir(parents=True, exist_ok=True)
+        for folder in (TOP, RTL, work):
+            without_blanks(folder)
         build(out, values, args, work)
     finally:
         if not args.keep:
@@ -226,7 +228,9 @@ class Build:
             (self.obj / f"none.{speed}.gch").touch()
         flags = [f"OPT_FAST={'-O1' if self.quick else '-O2'} -std=gnu++17", "OPT_SLOW=-O0", "OPT_GLOBAL=-O1"]
         flags.append(f"CXX={shlex.join(self.cxx)}")
-        make = ["make", "-C", self.obj, "-f", "Vkage.mk", f"-j{self.args.jobs}", "VM_PARALLEL_BUILDS=0"]
+        # Verilator's makefile refuses a folder with a blank in its name, by this variable. All that is made there has names
+        # without a folder, which make takes wherever it is.
+        make = ["make", "-C", self.obj, "-f", "Vkage.mk", f"-j{self.args.jobs}", "VM_PARALLEL_BUILDS=0", "CURDIR=."]
         # Newer Verilators give large models a precompiled header. A compiler takes one as its first include only, and
         # from_verilator.hpp comes first: so there is none.
         make += ["VK_PCH_H=none", "VK_PCH_I_FAST=", "VK_PCH_I_SLOW=", *flags]

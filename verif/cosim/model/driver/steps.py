@@ -49,14 +49,44 @@ def no_room(text, folder):
     return None
 
 
+# Folders with blanks in their names, and the names that tools get for them: Verilator takes a blank for the end of a file's
+# name. Each is an open descriptor, which the tools inherit and which leaves nothing behind.
+PLAIN = {}
+
+
+def without_blanks(folder):
+    """Tools get a name without blanks for `folder`, and messages the one that it has."""
+    folder = str(folder)
+    if any(c.isspace() for c in folder) and folder not in PLAIN:
+        PLAIN[folder] = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+
+
+def for_tools(text):
+    for folder in sorted(PLAIN, key=len, reverse=True):
+        text = text.replace(folder, f"/proc/self/fd/{PLAIN[folder]}")
+    return text
+
+
+def for_people(text):
+    for folder, descriptor in PLAIN.items():
+        text = text.replace(f"/proc/self/fd/{descriptor}/", folder + "/")
+    return text
+
+
 def run(step, command, log, otherwise=None):
     """A step of the build, which ends it if it fails; or, with `otherwise`, if that makes nothing of what the step said."""
     command = [str(c) for c in command]
     try:
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, restore_signals=False)
+        done = subprocess.run(
+            [for_tools(c) for c in command],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            restore_signals=False,
+            pass_fds=tuple(PLAIN.values()),
+        )
     except OSError as e:
         fail(f"{step}: {command[0]}: {e.strerror}")
-    text = done.stdout.decode(errors="replace")
+    text = for_people(done.stdout.decode(errors="replace"))
     log.write("$ " + " ".join(command) + "\n" + text)
     if done.returncode == 0:
         return True
