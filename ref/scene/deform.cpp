@@ -9,7 +9,7 @@
 namespace kage::scene {
 namespace {
 
-glm::dvec3 triple(const std::vector<float>& values, std::size_t i) {
+glm::dvec3 vertex_of(const std::vector<float>& values, std::size_t i) {
   return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
 }
 
@@ -40,7 +40,7 @@ class Mover {
   [[nodiscard]] glm::dvec3 morphed(glm::dvec3 v, std::size_t source, std::vector<float> RawTarget::*part) const {
     for (std::size_t t = 0; t < motion_.targets.size(); ++t) {
       const std::vector<float>& by = motion_.targets[t].*part;
-      if (!by.empty() && weights_[t] != 0) v = v + triple(by, source) * weights_[t];
+      if (!by.empty() && weights_[t] != 0) v = v + vertex_of(by, source) * weights_[t];
     }
     return v;
   }
@@ -76,7 +76,7 @@ class Mover {
       return v;
     }
     const glm::dvec3 n =
-        unit(morphed(triple(motion_.normals, from.number), from.number, &RawTarget::normals), v.normal);
+        unit(morphed(vertex_of(motion_.normals, from.number), from.number, &RawTarget::normals), v.normal);
     const glm::dvec3 in_world = unit(map(from.number).normal(n), n);
     v.normal = from.negated ? -in_world : in_world;
     return v;

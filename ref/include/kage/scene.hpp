@@ -162,14 +162,14 @@ struct SceneOptions {
 /// A scene loaded from a file.
 class Scene {
  public:
-  /// Loads a file (glTF 2.0, OBJ, PLY, STL, OFF, or what else Assimp reads), or a built-in scene. Throws Error that names file, place and cause.
-  /// Import runs in a child process with limits of time and memory; its death is an Error like any other. The child is
-  /// forked, and only the calling thread goes on in it: a lock that another thread holds at that moment is held in the
-  /// child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's is held, loading fails at the
-  /// limit of time. So load before other threads start, or while they rest. Several threads may load at once.
-  /// Intensities of lights are scaled by one factor, the same in all frames: at the middle of the scene, in the first
-  /// frame, light that meets a surface head-on from all of them (cones and ranges aside) adds up to 1 in the largest
-  /// channel.
+  /// Loads a file (glTF 2.0, OBJ, PLY, STL, OFF, or what else Assimp reads), or a built-in scene. Throws Error that
+  /// names file, place and cause. Import runs in a child process with limits of time and memory; its death is an Error
+  /// like any other. The child is forked, and only the calling thread goes on in it: a lock that another thread holds
+  /// at that moment is held in the child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's
+  /// is held, loading fails at the limit of time. So load before other threads start, or while they rest. Several
+  /// threads may load at once. Intensities of lights are scaled by one factor, the same in all frames: at the middle of
+  /// the scene, in the first frame, light that meets a surface head-on from all of them (cones and ranges aside) adds
+  /// up to 1 in the largest channel.
   /// @param name_or_path a name of builtin_scenes(), or a file
   /// @param options how it is loaded
   /// @return the scene, which does not change any more

@@ -20,7 +20,7 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
 }
 
 /// Ambient light there is none, exponents and refraction belong to gloss and glass, which have notes of their own.
-bool is_silent(std::string_view keyword) {
+bool is_passed_over(std::string_view keyword) {
   return is_one_of(keyword, {"Ka", "Ns", "Ni", "sharpness", "Pcr", "map_aat"});
 }
 
@@ -28,9 +28,9 @@ bool is_texture(std::string_view keyword) {
   return keyword.starts_with("map_") || is_one_of(keyword, {"bump", "disp", "decal", "refl", "norm"});
 }
 
-class Reader {
+class MtlReader {
  public:
-  Reader(std::string_view text, const std::string& file) : in_(text, file) {}
+  MtlReader(std::string_view text, const std::string& file) : in_(text, file) {}
 
   void run(MtlMaterials& materials, std::vector<std::string>& notes) {
     while (in_.next_statement())
@@ -79,10 +79,10 @@ class Reader {
   std::size_t twice_ = 0;
 };
 
-void Reader::read_statement() {
+void MtlReader::read_statement() {
   const std::string_view key = in_.keyword();
   if (!known_) return ignore();
-  if (is_silent(key)) return;
+  if (is_passed_over(key)) return;
   if (is_texture(key)) {
     ++known_->textures;
   } else if (key == "Kd") {
@@ -109,7 +109,7 @@ void Reader::read_statement() {
 }
 
 /// The format has red, green and blue, or red alone for all three; "spectral" and a file, or "xyz" and numbers.
-void Reader::read_color(std::optional<glm::dvec3>& to) {
+void MtlReader::read_color(std::optional<glm::dvec3>& to) {
   glm::dvec3 color{0};
   int count = 0;
   for (std::string_view word = in_.word(); !word.empty(); word = in_.word(), ++count) {
@@ -122,13 +122,13 @@ void Reader::read_color(std::optional<glm::dvec3>& to) {
 }
 
 /// What a colour of light a translucent material lets through: kage draws white.
-void Reader::read_filter() {
+void MtlReader::read_filter() {
   std::optional<glm::dvec3> filter;
   read_color(filter);
   if (filter && *filter != glm::dvec3(1)) ignore();
 }
 
-void Reader::read_dissolve() {
+void MtlReader::read_dissolve() {
   std::string_view word = in_.word();
   if (word == "-halo") {
     ignore(word);
@@ -139,7 +139,7 @@ void Reader::read_dissolve() {
   known_->dissolve = *value;
 }
 
-std::optional<double> Reader::read_number() {
+std::optional<double> MtlReader::read_number() {
   const std::string_view word = in_.word();
   const auto value = number_of(word);
   if (value && std::isfinite(*value) && in_.word().empty()) return *value;
@@ -147,7 +147,7 @@ std::optional<double> Reader::read_number() {
   return std::nullopt;
 }
 
-MtlMaterial Reader::material(const Known& known) {
+MtlMaterial MtlReader::material(const Known& known) {
   const auto positive = [](const std::optional<glm::dvec3>& c) {
     const glm::dvec3 v = c.value_or(glm::dvec3(0));
     return glm::dvec3(std::max(v.x, 0.0), std::max(v.y, 0.0), std::max(v.z, 0.0));
@@ -169,7 +169,7 @@ MtlMaterial Reader::material(const Known& known) {
   return m;
 }
 
-void Reader::finish(MtlMaterials& materials) {
+void MtlReader::finish(MtlMaterials& materials) {
   if (!known_) return;
   const MtlMaterial m = material(*known_);
   if (!materials.try_emplace(name_, m).second) ++twice_;
@@ -181,7 +181,7 @@ void Reader::finish(MtlMaterials& materials) {
 
 void read_mtl(std::string_view text, const std::string& file, MtlMaterials& materials,
               std::vector<std::string>& notes) {
-  Reader(text, file).run(materials, notes);
+  MtlReader(text, file).run(materials, notes);
 }
 
 }  // namespace kage::scene

@@ -25,9 +25,9 @@ bool is_free_form(std::string_view keyword) {
   return std::find(kFreeForm.begin(), kFreeForm.end(), keyword) != kFreeForm.end();
 }
 
-class Reader {
+class ObjReader {
  public:
-  Reader(std::string_view text, const std::filesystem::path& path, const std::string& name, bool allow_outside)
+  ObjReader(std::string_view text, const std::filesystem::path& path, const std::string& name, bool allow_outside)
       : in_(text, name), own_name_(path.filename().string()), libraries_(path, name, allow_outside) {}
 
   RawScene run();
@@ -74,7 +74,7 @@ class Reader {
   std::size_t missing_normals_ = 0;  // of corners
 };
 
-RawScene Reader::run() {
+RawScene ObjReader::run() {
   while (in_.next_statement()) read_statement();
   check_numbers();
   libraries_.fall_back(scene_.notes);
@@ -83,7 +83,7 @@ RawScene Reader::run() {
   return std::move(scene_);
 }
 
-void Reader::read_statement() {
+void ObjReader::read_statement() {
   const std::string_view key = in_.keyword();
   if (key == "v") {
     read_vertex();
@@ -111,7 +111,7 @@ void Reader::read_statement() {
   }
 }
 
-void Reader::read_vertex() {
+void ObjReader::read_vertex() {
   std::array<float, 7> v{};
   std::size_t count = 0;
   for (std::string_view word = in_.word(); !word.empty(); word = in_.word(), ++count) {
@@ -130,7 +130,7 @@ void Reader::read_vertex() {
   data_.colors.insert(data_.colors.end(), v.begin() + 3, v.begin() + 6);
 }
 
-void Reader::read_normal() {
+void ObjReader::read_normal() {
   std::size_t count = 0;
   for (std::string_view word = in_.word(); !word.empty(); word = in_.word(), ++count) {
     const float value = in_.number(word);
@@ -139,7 +139,7 @@ void Reader::read_normal() {
   if (count != 3) in_.fail(fmt::format("a normal has 3 numbers, not {}", count));
 }
 
-void Reader::read_thin() {
+void ObjReader::read_thin() {
   const bool points = in_.keyword() == "p";
   for (std::string_view word = in_.word(); !word.empty(); word = in_.word()) {
     (void)read_corner(word, points ? 1 : 2);
@@ -148,7 +148,7 @@ void Reader::read_thin() {
   thin_ += points ? 0 : 1;
 }
 
-void Reader::read_face() {
+void ObjReader::read_face() {
   const std::size_t first = data_.corners.size();
   bool has_normals = false;
   for (std::string_view word = in_.word(); !word.empty(); word = in_.word()) {
@@ -166,7 +166,7 @@ void Reader::read_face() {
   data_.faces.push_back({static_cast<std::uint32_t>(data_.corners.size()), object_, material_, has_normals});
 }
 
-std::int64_t Reader::read_number(std::string_view part, std::string_view word) const {
+std::int64_t ObjReader::read_number(std::string_view part, std::string_view word) const {
   const auto value = integer_of(part);
   if (!value || *value == 0 || *value > kObjNone - 1 || *value < -static_cast<std::int64_t>(kObjNone))
     in_.fail(one_line(word, 40) + " is no vertex's number");
@@ -174,7 +174,7 @@ std::int64_t Reader::read_number(std::string_view part, std::string_view word) c
 }
 
 /// A vertex may come after the face that names it, so one that is not there yet is looked for at the end.
-std::uint32_t Reader::read_vertex_number(std::string_view part, std::string_view word) {
+std::uint32_t ObjReader::read_vertex_number(std::string_view part, std::string_view word) {
   const std::int64_t value = read_number(part, word);
   const auto vertices = static_cast<std::int64_t>(data_.positions.size() / 3);
   if (value < -vertices) in_.fail(fmt::format("vertex {} of {} is named", value, vertices));
@@ -185,7 +185,7 @@ std::uint32_t Reader::read_vertex_number(std::string_view part, std::string_view
 }
 
 /// One that is not there is no reason to refuse a face, which has a normal of its own: build() counts them.
-std::uint32_t Reader::read_normal_number(std::string_view part, std::string_view word) {
+std::uint32_t ObjReader::read_normal_number(std::string_view part, std::string_view word) {
   const std::int64_t value = read_number(part, word);
   const auto normals = static_cast<std::int64_t>(data_.normals.size() / 3);
   if (value < -normals) return kObjNone - 1;
@@ -193,7 +193,7 @@ std::uint32_t Reader::read_normal_number(std::string_view part, std::string_view
 }
 
 /// "3", "3/1", "3/1/2" or "3//2"; numbers of texture coordinates need not be there. `parts`: at most so many.
-ObjCorner Reader::read_corner(std::string_view word, std::size_t parts) {
+ObjCorner ObjReader::read_corner(std::string_view word, std::size_t parts) {
   std::array<std::string_view, 3> part;
   std::string_view rest = word;
   std::size_t count = 0;
@@ -210,13 +210,13 @@ ObjCorner Reader::read_corner(std::string_view word, std::size_t parts) {
   return corner;
 }
 
-void Reader::check_numbers() {
+void ObjReader::check_numbers() {
   const std::size_t vertices = data_.positions.size() / 3;
   for (const Ahead& a : ahead_)
     if (a.number > vertices) in_.fail_at(a.line, fmt::format("vertex {} of {} is named", a.number, vertices));
 }
 
-void Reader::write_notes() {
+void ObjReader::write_notes() {
   std::vector<std::string>& notes = scene_.notes;
   const auto add = [&notes](std::size_t count, const char* one, const char* many, const char* rest) {
     if (count > 0) notes.push_back(counted(count, one, many) + rest);
@@ -239,7 +239,7 @@ void Reader::write_notes() {
 
 RawScene import_obj(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
   const std::string text = file_bytes(path, name);
-  return Reader(text, path, name, allow_outside).run();
+  return ObjReader(text, path, name, allow_outside).run();
 }
 
 }  // namespace kage::scene

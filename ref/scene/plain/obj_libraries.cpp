@@ -13,7 +13,7 @@
 namespace kage::scene {
 namespace {
 
-constexpr std::size_t kNamed = 5;  // so many materials that are not there are named
+constexpr std::size_t kNamedMaterials = 5;  // so many materials that are not there are named
 
 void add_once(std::vector<std::string>& to, std::string name) {
   if (std::find(to.begin(), to.end(), name) == to.end()) to.push_back(std::move(name));
@@ -92,9 +92,9 @@ void ObjLibraries::note_missing(std::vector<std::string>& notes) const {
         instead_.empty() ? "its materials are drawn grey" : "the materials are those of " + one_line(instead_, 120)));
   if (unknown_.empty() || (!missing_.empty() && read_.empty())) return;  // no material is there, and the notes say it
   std::string names;
-  for (std::size_t i = 0; i < std::min(unknown_.size(), kNamed); ++i)
+  for (std::size_t i = 0; i < std::min(unknown_.size(), kNamedMaterials); ++i)
     names += fmt::format("{}'{}'", i == 0 ? "" : ", ", one_line(unknown_[i], 60));
-  if (unknown_.size() > kNamed) names += fmt::format(" and {} more", unknown_.size() - kNamed);
+  if (unknown_.size() > kNamedMaterials) names += fmt::format(" and {} more", unknown_.size() - kNamedMaterials);
   notes.push_back(fmt::format("no material{} {}: drawn grey", unknown_.size() == 1 ? "" : "s", names));
 }
 

@@ -11,9 +11,9 @@
 namespace kage::scene {
 namespace {
 
-class Builder {
+class ObjBuilder {
  public:
-  Builder(ObjData data, ObjLibraries& libraries, RawScene& scene)
+  ObjBuilder(ObjData data, ObjLibraries& libraries, RawScene& scene)
       : data_(std::move(data)), libraries_(libraries), scene_(scene) {}
 
   std::size_t run();
@@ -49,7 +49,7 @@ class Builder {
   std::size_t missing_normals_ = 0;
 };
 
-std::size_t Builder::run() {
+std::size_t ObjBuilder::run() {
   ask_materials();
   if (!data_.colors.empty()) data_.colors.resize(data_.positions.size(), std::numeric_limits<float>::quiet_NaN());
   last_.resize(data_.positions.size() / 3);
@@ -68,7 +68,7 @@ std::size_t Builder::run() {
   return missing_normals_;
 }
 
-void Builder::ask_materials() {
+void ObjBuilder::ask_materials() {
   std::vector<bool> drawn(data_.materials.all().size(), false);
   for (const ObjFace& face : data_.faces)
     if (face.material == kObjNone)
@@ -82,7 +82,7 @@ void Builder::ask_materials() {
 }
 
 /// Its object's last one, or a new one where the material changes, or normals begin or end.
-RawPrimitive& Builder::primitive_for(const ObjFace& face, Run& run) {
+RawPrimitive& ObjBuilder::primitive_for(const ObjFace& face, Run& run) {
   const bool fresh = run.mesh < 0;
   if (fresh) {
     run.mesh = static_cast<std::int32_t>(scene_.meshes.size());
@@ -106,7 +106,7 @@ RawPrimitive& Builder::primitive_for(const ObjFace& face, Run& run) {
   return p;
 }
 
-std::uint32_t Builder::vertex_of(ObjCorner corner, const Run& run, RawPrimitive& p) {
+std::uint32_t ObjBuilder::vertex_of(ObjCorner corner, const Run& run, RawPrimitive& p) {
   if (corner.normal != kObjNone && corner.normal >= data_.normals.size() / 3) {
     ++missing_normals_;
     corner.normal = kObjNone;
@@ -127,7 +127,7 @@ std::uint32_t Builder::vertex_of(ObjCorner corner, const Run& run, RawPrimitive&
 
 /// A vertex without a colour shows the material's, or the grey of what has none; one with a colour and no material has
 /// its own.
-void Builder::push_color(std::size_t vertex, const ObjFace& face, RawPrimitive& p) {
+void ObjBuilder::push_color(std::size_t vertex, const ObjFace& face, RawPrimitive& p) {
   const bool has_material = face.material != kObjNone && looks_[face.material] != nullptr;
   const bool colored = !std::isnan(data_.colors[3 * vertex]);
   for (std::size_t i = 0; i < 3; ++i)
@@ -135,14 +135,14 @@ void Builder::push_color(std::size_t vertex, const ObjFace& face, RawPrimitive& 
   if (!has_material) p.color = glm::dvec3(1);
 }
 
-void Builder::finish(RawMesh& mesh) const {
+void ObjBuilder::finish(RawMesh& mesh) const {
   for (RawPrimitive& p : mesh.primitives) {
     if (!p.normals.empty()) p.normals.resize(p.positions.size());
     if (p.unlit) p.colors.clear();  // its colour is its own light
   }
 }
 
-void Builder::count_materials() const {
+void ObjBuilder::count_materials() const {
   SceneContents& c = scene_.contents;
   const auto note = [this](std::size_t count, const char* one, const char* many, const char* rest) {
     if (count > 0) scene_.notes.push_back(counted(count, one, many) + rest);
@@ -176,7 +176,7 @@ void Builder::count_materials() const {
 }  // namespace
 
 std::size_t build_obj(ObjData data, ObjLibraries& libraries, RawScene& scene) {
-  return Builder(std::move(data), libraries, scene).run();
+  return ObjBuilder(std::move(data), libraries, scene).run();
 }
 
 }  // namespace kage::scene

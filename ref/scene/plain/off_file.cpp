@@ -18,9 +18,9 @@
 namespace kage::scene {
 namespace {
 
-class Reader {
+class OffReader {
  public:
-  Reader(std::string_view text, const std::filesystem::path& path, const std::string& name) : in_(text, name) {
+  OffReader(std::string_view text, const std::filesystem::path& path, const std::string& name) : in_(text, name) {
     mesh_.name = path.stem().string();
     mesh_.double_sided = true;  // the format leaves open from which side a face is meant to be seen
   }
@@ -73,7 +73,7 @@ class Reader {
 };
 
 /// The next line that has more than blanks and a comment. False at the end.
-bool Reader::next_line() {
+bool OffReader::next_line() {
   while (in_.next()) {
     left_ = trimmed(in_.line().substr(0, in_.line().find('#')));
     if (!left_.empty()) return true;
@@ -81,12 +81,12 @@ bool Reader::next_line() {
   return false;
 }
 
-void Reader::need_line(const char* what, std::uint32_t number, std::uint32_t count) {
+void OffReader::need_line(const char* what, std::uint32_t number, std::uint32_t count) {
   if (!next_line()) in_.fail(fmt::format("the file ends behind {} of {} {}", number, count, what));
 }
 
 /// The first word: [ST][C][N][4][n]OFF, which may be left out, and then is OFF.
-void Reader::read_kind() {
+void OffReader::read_kind() {
   if (!next_line()) in_.fail("there is nothing in it");
   std::string_view rest = left_;
   const std::string_view word = take_word(rest);
@@ -108,7 +108,7 @@ void Reader::read_kind() {
   if (left_.empty() && !next_line()) in_.fail("the file ends before the counts of vertices and faces");
 }
 
-void Reader::read_counts() {
+void OffReader::read_counts() {
   vertices_ = in_.whole(take_word(left_), "count of vertices");
   faces_ = in_.whole(take_word(left_), "count of faces");
   // That of edges may be missing, and means nothing.
@@ -117,7 +117,7 @@ void Reader::read_counts() {
     in_.fail(fmt::format("'{}' stands behind the counts of vertices, faces and edges", one_line(word, 40)));
 }
 
-void Reader::read_vertex(std::uint32_t number) {
+void OffReader::read_vertex(std::uint32_t number) {
   need_line("vertices", number, vertices_);
   for (int i = 0; i < 3; ++i) mesh_.positions.push_back(in_.finite(take_word(left_)));
   for (int i = 0; has_normals_ && i < 3; ++i) mesh_.normals.push_back(in_.number(take_word(left_)));
@@ -137,7 +137,7 @@ void Reader::read_vertex(std::uint32_t number) {
 }
 
 /// What is left of the line: none, a place in a list of colours, or three or four numbers.
-Reader::Color Reader::read_color(float& largest_whole) {
+OffReader::Color OffReader::read_color(float& largest_whole) {
   Color color;
   std::size_t count = 0;
   for (std::string_view word = take_word(left_); !word.empty(); word = take_word(left_), ++count) {
@@ -154,7 +154,7 @@ Reader::Color Reader::read_color(float& largest_whole) {
   return color;
 }
 
-void Reader::read_face(std::uint32_t number) {
+void OffReader::read_face(std::uint32_t number) {
   need_line("faces", number, faces_);
   const std::uint32_t corners = in_.whole(take_word(left_), "count of corners");
   for (std::uint32_t i = 0; i < corners; ++i) {
@@ -168,7 +168,7 @@ void Reader::read_face(std::uint32_t number) {
 
 /// Whole numbers count from 0 to 255, others from 0 to 1. Where the whole ones of vertices, or of faces, are all 0 or
 /// 1, points were left out.
-void Reader::finish_colors() {
+void OffReader::finish_colors() {
   const auto push = [this](const Color& color, float largest_whole, std::vector<float>& to) {
     const float full = color.whole && largest_whole > 1 ? 255.0F : 1.0F;
     float most = 0;
@@ -188,7 +188,7 @@ void Reader::finish_colors() {
   for (const Color& color : face_colors_) push(color, face_whole_, mesh_.face_colors);
 }
 
-void Reader::write_notes(std::size_t thin) {
+void OffReader::write_notes(std::size_t thin) {
   std::vector<std::string>& notes = scene_.notes;
   if (mapped_ > 0)
     notes.push_back(counted(mapped_, "face has", "faces have") +
@@ -204,7 +204,7 @@ void Reader::write_notes(std::size_t thin) {
 
 RawScene import_off(const std::filesystem::path& path, const std::string& name) {
   const std::string text = file_bytes(path, name);
-  return Reader(text, path, name).run();
+  return OffReader(text, path, name).run();
 }
 
 }  // namespace kage::scene

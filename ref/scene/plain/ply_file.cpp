@@ -46,7 +46,7 @@ Role role_of(const std::string& name) {
 }
 
 /// Coordinates of textures, which have a note of their own where there are textures.
-bool is_silent(const std::string& name) {
+bool is_of_textures(const std::string& name) {
   return name == "s" || name == "t" || name == "u" || name == "v" || name.starts_with("texture_") ||
          name == "texcoord" || name == "texnumber";
 }
@@ -54,9 +54,9 @@ bool is_silent(const std::string& name) {
 /// The value that stands for a full colour: whole numbers count to 255, those of 16 bits to 65535.
 double full_of(PlyType type) { return !is_integer(type) ? 1 : type == PlyType::kUint16 ? 65535 : 255; }
 
-class Reader {
+class PlyReader {
  public:
-  Reader(std::string_view text, const std::filesystem::path& path, const std::string& name)
+  PlyReader(std::string_view text, const std::filesystem::path& path, const std::string& name)
       : lines_(text, name), header_(read_ply_header(lines_)), values_(lines_, header_.form) {
     mesh_.name = path.stem().string();
     mesh_.color = 1;
@@ -99,7 +99,7 @@ class Reader {
   bool both_colored_ = false;
 };
 
-RawScene Reader::run() {
+RawScene PlyReader::run() {
   for (const PlyElement& e : header_.elements)
     if (e.name == "vertex") vertices_ = e.count;
   for (const PlyElement& e : header_.elements) {
@@ -123,7 +123,7 @@ RawScene Reader::run() {
   return std::move(scene_);
 }
 
-Reader::Plan Reader::plan_of(const PlyElement& element, bool of_faces) {
+PlyReader::Plan PlyReader::plan_of(const PlyElement& element, bool of_faces) {
   Plan plan;
   plan.indices = element.properties.size();
   std::vector<std::string> ignored;
@@ -136,7 +136,7 @@ Reader::Plan Reader::plan_of(const PlyElement& element, bool of_faces) {
     plan.roles.push_back(role);
     if (of_faces && is_list && (p.name == "vertex_indices" || p.name == "vertex_index"))
       plan.indices = i;
-    else if (role == Role::kNone && !is_silent(p.name))
+    else if (role == Role::kNone && !is_of_textures(p.name))
       ignored.push_back("property " + one_line(p.name, 40) + " of element " + element.name);
   }
   ignored_.insert(ignored_.end(), ignored.begin(), ignored.end());
@@ -148,7 +148,7 @@ Reader::Plan Reader::plan_of(const PlyElement& element, bool of_faces) {
   return plan;
 }
 
-void Reader::read_row(const PlyElement& element, const Plan& plan, std::array<double, 11>& row) {
+void PlyReader::read_row(const PlyElement& element, const Plan& plan, std::array<double, 11>& row) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& p = element.properties[i];
     if (p.count != PlyType::kNone) {
@@ -165,7 +165,7 @@ void Reader::read_row(const PlyElement& element, const Plan& plan, std::array<do
   values_.end();
 }
 
-void Reader::read_list(const PlyProperty& property, bool wanted) {
+void PlyReader::read_list(const PlyProperty& property, bool wanted) {
   const std::uint64_t length = values_.length(property.count, property.type);
   if (wanted) list_.clear();
   for (std::uint64_t i = 0; i < length; ++i) {
@@ -174,13 +174,13 @@ void Reader::read_list(const PlyProperty& property, bool wanted) {
   }
 }
 
-std::uint32_t Reader::vertex(std::int64_t number) const {
+std::uint32_t PlyReader::vertex(std::int64_t number) const {
   if (number < 0 || static_cast<std::uint64_t>(number) >= vertices_)
     values_.fail(fmt::format("vertex {} of {} is named (they count from 0)", number, vertices_));
   return static_cast<std::uint32_t>(number);
 }
 
-void Reader::read_vertices(const PlyElement& element) {
+void PlyReader::read_vertices(const PlyElement& element) {
   const Plan plan = plan_of(element, false);
   for (const auto& [role, name] : {std::pair{Role::kX, "x"}, {Role::kY, "y"}, {Role::kZ, "z"}})
     if (!plan.has(role)) throw Error(fmt::format("{}: element vertex has no property {}", lines_.file(), name));
@@ -201,7 +201,7 @@ void Reader::read_vertices(const PlyElement& element) {
 }
 
 /// What is there of red, green and blue; the others are 0.
-void Reader::read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to) {
+void PlyReader::read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to) {
   if (!plan.has(Role::kRed) && !plan.has(Role::kGreen) && !plan.has(Role::kBlue)) return;
   bool bright = false;
   for (const Role role : {Role::kRed, Role::kGreen, Role::kBlue}) {
@@ -213,7 +213,7 @@ void Reader::read_color(const Plan& plan, const std::array<double, 11>& row, std
   alphas_ += plan.has(Role::kAlpha) && row[static_cast<std::size_t>(Role::kAlpha)] < 1 ? 1 : 0;
 }
 
-void Reader::read_faces(const PlyElement& element) {
+void PlyReader::read_faces(const PlyElement& element) {
   const Plan plan = plan_of(element, true);
   std::array<double, 11> row{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -225,7 +225,7 @@ void Reader::read_faces(const PlyElement& element) {
   }
 }
 
-void Reader::read_strips(const PlyElement& element) {
+void PlyReader::read_strips(const PlyElement& element) {
   const Plan plan = plan_of(element, true);
   std::array<double, 11> row{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -237,7 +237,7 @@ void Reader::read_strips(const PlyElement& element) {
 
 /// Each vertex from the third on makes a triangle with the two before it, every other one the other way round; -1, or
 /// what it is without a sign, begins a new strip. A triangle that repeats a vertex is how strips are joined.
-void Reader::add_strip() {
+void PlyReader::add_strip() {
   std::size_t first = 0;
   for (std::size_t i = 0; i < list_.size(); ++i) {
     if (list_[i] == -1 || list_[i] == 0xffffffff) {
@@ -254,7 +254,7 @@ void Reader::add_strip() {
   }
 }
 
-void Reader::skip(const PlyElement& element) {
+void PlyReader::skip(const PlyElement& element) {
   if (element.count == 0) return;
   if (element.name == "edge")
     thin_ += element.count;
@@ -271,7 +271,7 @@ void Reader::skip(const PlyElement& element) {
   }
 }
 
-void Reader::write_notes() {
+void PlyReader::write_notes() {
   std::vector<std::string>& notes = scene_.notes;
   const auto add = [&notes](std::size_t count, const char* one, const char* many, const char* rest) {
     if (count > 0) notes.push_back(counted(count, one, many) + rest);
@@ -290,7 +290,7 @@ void Reader::write_notes() {
 
 RawScene import_ply(const std::filesystem::path& path, const std::string& name) {
   const std::string text = file_bytes(path, name);
-  return Reader(text, path, name).run();
+  return PlyReader(text, path, name).run();
 }
 
 }  // namespace kage::scene

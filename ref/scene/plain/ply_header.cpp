@@ -33,9 +33,9 @@ PlyType type_of(std::string_view word) {
   return at == kTypes.end() ? PlyType::kNone : at->second;
 }
 
-class Reader {
+class HeaderReader {
  public:
-  explicit Reader(TextLines& lines) : lines_(lines) {}
+  explicit HeaderReader(TextLines& lines) : lines_(lines) {}
 
   PlyHeader run() {
     if (!lines_.next() || trimmed(lines_.line()) != "ply") lines_.fail("does not begin with 'ply'");
@@ -138,6 +138,6 @@ std::size_t PlyElement::least_size() const {
   return size;
 }
 
-PlyHeader read_ply_header(TextLines& lines) { return Reader(lines).run(); }
+PlyHeader read_ply_header(TextLines& lines) { return HeaderReader(lines).run(); }
 
 }  // namespace kage::scene

@@ -13,8 +13,7 @@
 namespace kage::scene {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\v\f";
-constexpr std::size_t kNamed = 8;  // so many words are named
+constexpr std::size_t kNamedWords = 8;  // so many words are named
 
 /// Whether a # within a word behind this keyword is part of a name.
 bool has_name(std::string_view keyword) {
@@ -79,9 +78,9 @@ void IgnoredWords::note(const std::string& file, std::vector<std::string>& notes
   std::sort(words.begin(), words.end());
   const std::string of = " of " + one_line(file, 120);
   std::string text = counted(words.size(), "word" + of + " is ignored:", "words" + of + " are ignored:");
-  for (std::size_t i = 0; i < std::min(words.size(), kNamed); ++i)
+  for (std::size_t i = 0; i < std::min(words.size(), kNamedWords); ++i)
     text += fmt::format("{}{} (line {})", i == 0 ? " " : ", ", one_line(words[i].second, 40), words[i].first);
-  if (words.size() > kNamed) text += fmt::format(" and {} more", words.size() - kNamed);
+  if (words.size() > kNamedWords) text += fmt::format(" and {} more", words.size() - kNamedWords);
   notes.push_back(std::move(text));
 }
 

@@ -20,9 +20,10 @@
 namespace kage::scene {
 namespace {
 
-constexpr std::size_t kHeader = 80;  // bytes of a binary file before the number of its triangles
-constexpr double kWhite = 1;         // the colour of what has none
-constexpr std::size_t kFacet = 50;   // bytes of a triangle: normal, three corners, two bytes that are the program's own
+constexpr std::size_t kStlHeader = 80;  // bytes of a binary file before the number of its triangles
+constexpr double kWhite = 1;            // the colour of what has none
+constexpr std::size_t kStlFacet =
+    50;  // bytes of a triangle: normal, three corners, two bytes that are the program's own
 
 std::uint32_t little(const char* p) {
   std::uint32_t bits = 0;
@@ -43,7 +44,8 @@ bool is_text(std::string_view bytes) {
   if (begin.starts_with("\xEF\xBB\xBF")) begin.remove_prefix(3);
   begin.remove_prefix(std::min(begin.find_first_not_of(" \t\r\n"), begin.size()));
   if (lower(begin.substr(0, 5)) != "solid") return false;
-  if (bytes.size() >= kHeader + 4 && bytes.size() == kHeader + 4 + kFacet * std::size_t{little(bytes.data() + kHeader)})
+  if (bytes.size() >= kStlHeader + 4 &&
+      bytes.size() == kStlHeader + 4 + kStlFacet * std::size_t{little(bytes.data() + kStlHeader)})
     return false;
   return std::none_of(begin.begin(), begin.end(), [](char c) {
     return static_cast<unsigned char>(c) < 32 && std::string_view("\t\r\n\v\f").find(c) == std::string_view::npos;
@@ -55,9 +57,9 @@ void drop_zero_normals(PlainMesh& mesh) {
   if (std::all_of(mesh.normals.begin(), mesh.normals.end(), [](float v) { return v == 0; })) mesh.normals.clear();
 }
 
-class TextReader {
+class StlTextReader {
  public:
-  TextReader(std::string_view text, const std::string& name) : in_(text, name) {}
+  StlTextReader(std::string_view text, const std::string& name) : in_(text, name) {}
 
   RawScene run() {
     for (std::string word = next(); !word.empty(); word = next()) {
@@ -155,21 +157,21 @@ class FacetColors {
 };
 
 RawScene read_binary(std::string_view bytes, const std::string& stem, const std::string& name) {
-  if (bytes.size() < kHeader + 4)
+  if (bytes.size() < kStlHeader + 4)
     throw Error(fmt::format("{}: begins without 'solid', and has {}, too few for a binary file", name,
                             counted(bytes.size(), "byte")));
-  const std::size_t count = little(bytes.data() + kHeader);
-  const std::string_view header = bytes.substr(0, kHeader);
-  bytes.remove_prefix(kHeader + 4);
-  if (count > bytes.size() / kFacet)
-    throw Error(fmt::format("{}: says {} triangles, and has bytes for {}", name, count, bytes.size() / kFacet));
+  const std::size_t count = little(bytes.data() + kStlHeader);
+  const std::string_view header = bytes.substr(0, kStlHeader);
+  bytes.remove_prefix(kStlHeader + 4);
+  if (count > bytes.size() / kStlFacet)
+    throw Error(fmt::format("{}: says {} triangles, and has bytes for {}", name, count, bytes.size() / kStlFacet));
   PlainMesh mesh;
   mesh.name = stem;
   mesh.color = kWhite;
   const FacetColors colors(header);
   std::size_t colored = 0;
   std::size_t own = 0;  // facets whose own bytes say something else
-  for (std::size_t i = 0; i < count; ++i, bytes.remove_prefix(kFacet)) {
+  for (std::size_t i = 0; i < count; ++i, bytes.remove_prefix(kStlFacet)) {
     std::array<float, 12> v{};
     for (std::size_t k = 0; k < v.size(); ++k) v[k] = std::bit_cast<float>(little(bytes.data() + 4 * k));
     if (!std::all_of(v.begin() + 3, v.end(), [](float f) { return std::isfinite(f); }))
@@ -203,7 +205,7 @@ RawScene read_binary(std::string_view bytes, const std::string& stem, const std:
 
 RawScene import_stl(const std::filesystem::path& path, const std::string& name) {
   const std::string bytes = file_bytes(path, name);
-  if (is_text(bytes)) return TextReader(bytes, name).run();
+  if (is_text(bytes)) return StlTextReader(bytes, name).run();
   return read_binary(bytes, path.stem().string(), name);
 }
 

@@ -15,8 +15,6 @@
 namespace kage::scene {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\v\f";
-
 /// std::from_chars takes no plus sign.
 std::string_view without_plus(std::string_view word) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);

@@ -12,6 +12,9 @@
 
 namespace kage::scene {
 
+/// What parts words.
+inline constexpr std::string_view kBlanks = " \t\v\f";
+
 /// The next word of `rest`, which loses it; empty at the end. Blanks, tabs, vertical tabs and form feeds part words.
 std::string_view take_word(std::string_view& rest);
 
