@@ -35,6 +35,7 @@ module pixel_banked #(
   localparam int Groups = (MAX_WIDTH + LANES - 1) / LANES;
   localparam int AddrBits = Groups > 1 ? $clog2(Groups) : 1;
   localparam int Levels = $clog2(LANES);
+  localparam int SomeXBits = X_BITS > Levels ? X_BITS : Levels + 1;  // a position's, where a line is less than a group
   localparam int OffBits = LANES > 1 ? Levels : 1;
   localparam int WordBits = LANES * PixelBits;
   localparam int Last = Levels + 3;  // the stage at which a group's next state is computed; the walker is stage 0
@@ -56,8 +57,8 @@ module pixel_banked #(
 
   assign x_last = cmd.xr - 1'b1;
   assign flat = SMOOTH > 0 ? '0 : cmd.color[FlatBits-1:0];
-  assign group_first = AddrBits'(cmd.xl >> Levels);
-  assign group_last = AddrBits'(x_last >> Levels);
+  assign group_first = AddrBits'(SomeXBits'(cmd.xl) >> Levels);
+  assign group_last = AddrBits'(SomeXBits'(x_last) >> Levels);
   assign lane_first = LANES > 1 ? OffBits'(cmd.xl) : '0;
   assign lane_last = LANES > 1 ? OffBits'(x_last) : '0;
   // A pass in which the line's pixels leave, of EOL or CmdOut; a TREE.

@@ -118,10 +118,11 @@ module segment_check #(
   end
 
   // ---- a segment ---------------------------------------------------------------------------------------------------
-  logic [X_BITS-1:0] rest_next;
+  logic [X_BITS-1:0] rest_next, dx_of_line;  // a length of more bits than a position has does not complete the line
   logic completes, too_long, too_early, seg_fault;
   logic [CodeBits-1:0] seg_code;
-  assign rest_next = rest - X_BITS'(dx_i);
+  assign dx_of_line = X_BITS'(dx_i);
+  assign rest_next = rest - dx_of_line;
   assign completes = RestBits'(rest) == RestBits'(dx_i);
   assign completes_o = completes;
   assign too_long = RestBits'(rest) < RestBits'(dx_i);

@@ -93,22 +93,6 @@ module volume_ends #(
     sp_of[SpDzLsb+:DepthBits] = dz;
   endfunction
 
-  function automatic logic [TokenBits-1:0] tp_of(
-      input logic [X_BITS-1:0] xl, input logic [X_BITS-1:0] xr, input logic [7:0] alpha, input logic [DepthBits-1:0] z,
-      input logic [DepthBits-1:0] dz, input logic [ColorBits-1:0] color, input logic [SlopeBits-1:0] dcolor);
-    logic unused_bits;
-    unused_bits = ^dcolor;
-    tp_of = '0;
-    tp_of[KindBits-1:0] = KindTp;
-    tp_of[TpXlLsb+:X_BITS] = xl;
-    tp_of[TpXrLsb+:X_BITS] = xr;
-    tp_of[TpAlphaLsb+:8] = alpha;
-    tp_of[TpZLsb+:DepthBits] = z;
-    tp_of[TpDzLsb+:DepthBits] = dz;
-    tp_of[TpColorLsb+:ColorBits] = color;
-    if (SMOOTH > 0) tp_of[TpDcolorLsb+:SlopeBits] = dcolor;
-  endfunction
-
   // What a near cap of this weight over the whole line says.
   function automatic logic [TokenBits-1:0] if_of(input logic [DSF_BITS:0] w);
     if_of = '0;
@@ -139,6 +123,23 @@ module volume_ends #(
     assign no_weight = 1'b1;
   end
   if (TRANSLUCENCY > 0) begin : gen_tp
+    // Here, because TP's fields may lie beyond the longest token of a core without it.
+    function automatic logic [TokenBits-1:0] tp_of(input logic [X_BITS-1:0] xl, input logic [X_BITS-1:0] xr,
+                                                   input logic [7:0] alpha, input logic [DepthBits-1:0] z,
+                                                   input logic [DepthBits-1:0] dz, input logic [ColorBits-1:0] color,
+                                                   input logic [SlopeBits-1:0] dcolor);
+      logic unused_bits;
+      unused_bits = ^dcolor;
+      tp_of = '0;
+      tp_of[KindBits-1:0] = KindTp;
+      tp_of[TpXlLsb+:X_BITS] = xl;
+      tp_of[TpXrLsb+:X_BITS] = xr;
+      tp_of[TpAlphaLsb+:8] = alpha;
+      tp_of[TpZLsb+:DepthBits] = z;
+      tp_of[TpDzLsb+:DepthBits] = dz;
+      tp_of[TpColorLsb+:ColorBits] = color;
+      if (SMOOTH > 0) tp_of[TpDcolorLsb+:SlopeBits] = dcolor;
+    endfunction
     assign made_tp = tp_of(
         coming_span.xl,
         coming_span.xr,

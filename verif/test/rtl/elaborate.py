@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every named configuration is elaborated by each tool that reads SystemVerilog here: Verilator, Icarus Verilog, yosys, slang.
 The top is rtl/kage_axi.v, with kage_top in it. So is rtl/board/board_core.sv in some shapes. A warning is a failure.
+Behind the named configurations come legal ones by chance, with a front end and without: a hundred pairs for slang, which is
+quick, and a few for each of the others. KAGE_SEED=N takes others.
 
 usage: elaborate.py SOURCE_DIR READER... [--pyslang FOLDER]
 
@@ -17,7 +19,9 @@ simulates. A signal of its own is read alike by all.
 """
 
 import argparse
+import os
 import pathlib
+import random
 import re
 import subprocess
 import sys
@@ -42,6 +46,8 @@ BOARDS = {
         "LINES": 20,
     },
 }
+# Pairs of random configurations, with a front end and without.
+RANDOM_PAIRS = {"verilator": 3, "iverilog": 3, "yosys": 3, "slang": 100}
 # What Icarus Verilog tells of itself. Neither changes what it simulates: no two cases of a `unique case` overlap, as Verilator's
 # assertions check, and an always_comb that wakes more often comes to the same values.
 ICARUS_LACKS = [
@@ -241,6 +247,40 @@ class Readers:
         return wrong
 
 
+def holds(rule, values):
+    """Whether parameters keep a rule of rtl/defs/kage.yaml."""
+    return eval(rule["legal"].replace("||", " or ").replace("&&", " and "), {}, dict(values))
+
+
+def random_configuration(chance, defs):
+    """Any legal configuration without a front end, as verif/test/support/configs.hpp draws it."""
+    values = {}
+    for p in defs["pixel_params"] + defs["impl_params"]:
+        values[p["name"]] = chance.choice(p["allowed"]) if "allowed" in p else chance.randint(p["min"], p["max"])
+    for name, least in (("COUNT_BITS", 0), ("CLASS_BITS", 1), ("UNITS", 0), ("CLASSIC", 0)):
+        if chance.random() < 0.4:
+            values[name] = least
+    values["MAX_WIDTH"] = chance.randint(1, 64 if values["ARRANGEMENT"] == 0 else (1 << values["X_BITS"]) - 1)
+    values["ACTIVE"] = 0
+    for rule in defs["rules"]:
+        if not holds(rule, values):
+            values |= {name: v if isinstance(v, int) else eval(v, {}, values) for name, v in rule["repair"].items()}
+    assert all(holds(rule, values) for rule in defs["rules"]), values
+    return values
+
+
+def random_pairs(source, count):
+    """Configurations by their text: so many random ones, each without a front end and with one."""
+    defs = yaml.safe_load((source / "rtl/defs/kage.yaml").read_text())
+    most = next(p["max"] for p in defs["impl_params"] if p["name"] == "ACTIVE")
+    chance = random.Random(int(os.environ.get("KAGE_SEED", "1")))
+    for _ in range(count):
+        values = random_configuration(chance, defs)
+        for active in (0, chance.choice((1, 2, chance.randint(1, most)))):
+            given = {**values, "ACTIVE": active}
+            yield " ".join(f"{name}={value}" for name, value in given.items()), given
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("source", type=lambda text: pathlib.Path(text).resolve())
@@ -257,7 +297,8 @@ def main():
     bad = 0
     with tempfile.TemporaryDirectory() as work:
         for reader in args.readers:
-            for (top, illegal, reason), named in ((CORE, configurations), (BOARD, BOARDS)):
+            cores = configurations | dict(random_pairs(args.source, RANDOM_PAIRS[reader]))
+            for (top, illegal, reason), named in ((CORE, cores), (BOARD, BOARDS)):
                 read = getattr(Readers(args.source, pathlib.Path(work), top), reader)
                 good = 0
                 for name, values in named.items():
