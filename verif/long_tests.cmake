@@ -94,7 +94,8 @@ set(long_tests
     scene/polygon_level_large
     scene/precision
     tools/dead-cores
-    tools/lint-verilator)
+    tools/lint-verilator
+    unit/cosim/stages)
 
 # What long tests alone need: programs, models, and all that no test runs but must compile.
 add_custom_target(long_tests)

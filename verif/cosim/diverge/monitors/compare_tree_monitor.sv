@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // compare_tree from its ports alone: of the units' pixels that were taken for a place, the one with the least key, on
-// equal keys the lowest unit's, as many clocks after the last of them as there are levels; and no more are taken of a
+// equal keys the lowest unit's, no later after the last of them than the tree's latency; and no more are taken of a
 // unit than there are registers for.
 `default_nettype none
 
@@ -24,42 +24,55 @@ module compare_tree_monitor #(
 
   if (UNITS > 1) begin : gen_tree
     localparam int Levels = $clog2(UNITS);  // a register each
-    localparam int Most = 8;
-    logic [DATA_BITS:0] words[UNITS*Most];  // {last, data}
-    int at_q, wait_q, held_q[UNITS];
-    logic [DATA_BITS:0] word, best;
-    logic whole, pop;
+    localparam int Buffers = (Levels - 1) / 2;  // on a pixel's way: a clock and two registers each
+    localparam int Latency = Levels + Buffers;
+    localparam int MostHeld = Levels + 2 * Buffers;
+    localparam int Most = MostHeld + 1;  // of a ring, where one comes in the clock in which one leaves
+    localparam int WordBits = DATA_BITS + 1;  // {last, data}
+    int at_q, wait_q;
+    logic [UNITS-1:0] there;  // units of which a pixel is in the tree
+    logic [UNITS*WordBits-1:0] fronts;  // the oldest of each
+    logic [WordBits-1:0] word, best;
+    logic pop;
     always_comb begin
-      whole = 1'b1;
-      best  = words[at_q];
-      word  = '0;
-      for (int u = 0; u < UNITS; u++) begin
-        word = words[u*Most+at_q];
-        if (held_q[u] == 0) whole = 1'b0;
+      best = fronts[WordBits-1:0];
+      word = '0;
+      for (int u = 1; u < UNITS; u++) begin
+        word = fronts[u*WordBits+:WordBits];
         if (word[DATA_BITS-1-:KEY_BITS] < best[DATA_BITS-1-:KEY_BITS]) best = word;
       end
-      best[DATA_BITS] = words[at_q][DATA_BITS];
+      best[DATA_BITS] = fronts[DATA_BITS];
     end
-    assign pop = out_valid_o && out_ready_i && whole;
+    assign pop = out_valid_o && out_ready_i && (&there);
+
+    // A ring a unit: Verilator takes no array that a loop over many units writes.
+    for (genvar u = 0; u < UNITS; u++) begin : gen_unit
+      logic [WordBits-1:0] words[Most];
+      int held_q;
+      assign there[u] = held_q != 0;
+      assign fronts[u*WordBits+:WordBits] = words[at_q];
+      always_ff @(posedge clk_i) begin
+        if (!rst_ni) held_q <= 0;
+        else begin
+          if (in_valid_i[u] && in_ready_o[u]) begin
+            words[(at_q+held_q)%Most] <= {in_last_i[u], in_data_i[u*DATA_BITS+:DATA_BITS]};
+          end
+          trace_module(PartCompareTree, 512'(1), 512'(held_q <= MostHeld));
+          held_q <= held_q + 32'(in_valid_i[u] && in_ready_o[u]) - 32'(pop);
+        end
+      end
+    end
 
     always_ff @(posedge clk_i) begin
       if (!rst_ni) begin
         at_q   <= 0;
         wait_q <= 0;
-        for (int u = 0; u < UNITS; u++) held_q[u] <= 0;
       end else begin
-        if (out_valid_o) trace_module(PartCompareTree, 512'(1), 512'(whole));
-        if (out_valid_o && whole) trace_module(PartCompareTree, 512'(best), 512'({out_last_o, out_data_o}));
+        if (out_valid_o) trace_module(PartCompareTree, 512'(1), 512'(&there));
+        if (out_valid_o && (&there)) trace_module(PartCompareTree, 512'(best), 512'({out_last_o, out_data_o}));
         if (pop) at_q <= (at_q + 1) % Most;
-        trace_module(PartCompareTree, 512'(1), 512'(wait_q <= Levels));
-        wait_q <= whole && !out_valid_o ? wait_q + 1 : 0;
-        for (int u = 0; u < UNITS; u++) begin
-          if (in_valid_i[u] && in_ready_o[u]) begin
-            words[u*Most+(at_q+held_q[u])%Most] <= {in_last_i[u], in_data_i[u*DATA_BITS+:DATA_BITS]};
-          end
-          trace_module(PartCompareTree, 512'(1), 512'(held_q[u] <= Levels));
-          held_q[u] <= held_q[u] + 32'(in_valid_i[u] && in_ready_o[u]) - 32'(pop);
-        end
+        trace_module(PartCompareTree, 512'(1), 512'(wait_q <= Latency));
+        wait_q <= (&there) && !out_valid_o ? wait_q + 1 : 0;
       end
     end
   end else begin : gen_wires

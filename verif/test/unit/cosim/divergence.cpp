@@ -54,11 +54,12 @@ std::vector<SmallConfig> configurations() {
                      c.fsf = 0, c.dsf_bits = 2, c.count_bits = 2, c.lights = 2, c.class_bits = 2, c.translucency = 1,
                      c.arrangement = 0;
                    }),
-      small_config("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.translucency = 1; }),
+      // Five levels of the tree, with buffers behind two of them, and a unit that passes levels alone.
+      small_config("units", [](Config& c) { c.units = 19, c.dx_bits = 6, c.face_bits = 3, c.translucency = 1; }),
       small_config("a count and no table, one unit, one lane",
                    [](Config& c) { c.count_bits = 4, c.lanes = 1, c.units = 1, c.dx_bits = 6, c.face_bits = 4; }),
       small_config("units, systolic",
-                   [](Config& c) { c.units = 2, c.dx_bits = 6, c.face_bits = 4, c.arrangement = 0; }),
+                   [](Config& c) { c.units = 8, c.dx_bits = 6, c.face_bits = 3, c.arrangement = 0; }),
   };
 }
 
