@@ -148,9 +148,11 @@ void add_regress(CLI::App& app, Action& action) {
       "  kage regress --minutes 30 --seed 7 --junit regress.xml\n"
       "  kage regress --config glass --config mine.yaml --minutes 1\n"
       "  kage regress --rounds 2 --json -\n"
+      "  kage regress --front-end rtl                    (a front end in every configuration, and polygons for it)\n"
       "  kage regress --list --config glass\n"
       "Each run is a kage cosim: sound, mixed and damaged random frames and the built-in scenes, in every\n"
-      "configuration, with ports that stop and ports that do not (docs/regress.md). The first\n"
+      "configuration, with ports that stop and ports that do not (docs/regress.md). Configurations with a front end\n"
+      "get frames at both levels: polygons, and spans between. The first\n"
       "difference ends the regression: its run is repeated with pictures, waveform, page and the stage that differs\n"
       "first, in DIR/RUN, and the line of kage cosim that repeats it is printed.\n"
       "DIR/report.html is over all runs. The RTL models that are missing are built before the time begins.\n"
@@ -175,6 +177,10 @@ void add_regress(CLI::App& app, Action& action) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
   option_seed(*c, *o);
+  option_front_end(*c, *o);
+  c->get_option(kFrontEnd)->description(
+      "who makes spans of polygons, default rtl in configurations with a front end (ACTIVE), else host; rtl gives the "
+      "others a front end, too (docs/regress.md)");
   c->add_option("--out", o->out, "folder for report.html and what is found out about a difference, default out")
       ->type_name("DIR");
   option_json(*c, *o);

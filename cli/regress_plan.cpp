@@ -11,6 +11,7 @@
 
 #include "kage/error.hpp"
 #include "kage/scene.hpp"
+#include "options.hpp"
 #include "stimulus/random_frames.hpp"
 
 namespace kage::cli {
@@ -79,6 +80,8 @@ class Round {
     option("--jobs", "1");  // as the regression runs it: one core gets all frames, so a history of them shows
     if (stalls.idle != 0) option("--idle", std::to_string(stalls.idle));
     if (stalls.backpressure != 0) option("--backpressure", std::to_string(stalls.backpressure));
+    if (c.config.active > 0 && std::find(more_.begin(), more_.end(), kFrontEnd) == more_.end())
+      option(kFrontEnd, front_end_of(Level::polygons));
     arguments.insert(arguments.end(), more_.begin(), more_.end());
     runs.push_back({std::move(name), c.name, round_, std::move(arguments)});
   }

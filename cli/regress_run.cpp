@@ -42,7 +42,9 @@ Regress::Regress(const RegressCommand& o) : o_(o), start_(Clock::now()) {
   const std::vector<std::string>& names = o_.configs;
   if (names.empty()) configs_ = named_configs();
   for (const std::string& name : names) configs_.push_back(load_config(name));
-  for (const char* name : kRtlOptions)
+  std::vector<const char*> handed_on(kRtlOptions.begin(), kRtlOptions.end());
+  handed_on.push_back(kFrontEnd);
+  for (const char* name : handed_on)
     if (const CLI::Option* option = o_.command->get_option_no_throw(name); option != nullptr && option->count() != 0)
       more_.insert(more_.end(), {name, option->results().back()});
 }
@@ -58,8 +60,9 @@ void Regress::list(int rounds) const {
 
 void Regress::prepare() {
   (void)plan_round(configs_, 0, o_.seed, more_);
-  for (const NamedConfig& c : configs_) {
+  for (NamedConfig c : configs_) {
     check_interrupt();
+    (void)give_front_end(o_, c.config);
     build_seconds_ += model_of(c, o_.rtl).build_seconds;
   }
   start_ = Clock::now();

@@ -22,7 +22,8 @@ constexpr double kWorthMoving = 0.9;
 /// Whether a configuration is ever chosen without its name.
 bool for_anybody(const Config& c, const Needs& needs) {
   const bool one_volume_only = c.dsf_bits > 0 && c.fsf == 0;
-  return c.arrangement != 0 && c.units == 0 && !(needs.shadows && needs.several_volumes && one_volume_only);
+  return c.arrangement != 0 && c.units == 0 && c.active == 0 &&
+         !(needs.shadows && needs.several_volumes && one_volume_only);
 }
 
 /// Whether it counts light samples that the scene has not.
