@@ -2,7 +2,6 @@
 #include "mutants/inputs.hpp"
 
 #include <array>
-#include <utility>
 
 #include "cosim/core.hpp"
 #include "stimulus/random_frames.hpp"
@@ -47,12 +46,21 @@ std::vector<Inputs> trial_configurations() {
 
 void make_frames(Inputs& inputs, std::uint64_t seed) {
   Random random(seed);
-  constexpr std::array<std::pair<int, int>, 3> kStalls{{{0, 0}, {30, 30}, {0, 70}}};
-  for (const auto& [idle, backpressure] : kStalls) {
+  struct Ports {
+    int idle;
+    int backpressure;
+    bool busy;  // frames come to a core that has another frame, or was reset within one
+  };
+  constexpr std::array kPorts{Ports{0, 0, false}, Ports{30, 30, false}, Ports{0, 70, false}, Ports{0, 70, true}};
+  for (const auto& [idle, backpressure, busy] : kPorts) {
     Sequence s;
     s.rtl.seed = seed;
     s.rtl.idle_percent = idle;
     s.rtl.backpressure_percent = backpressure;
+    if (busy)
+      s.rtl.prelude =
+          RandomFrames(inputs.config, Manner::mixed, seed, inputs.config.active > 0 ? Level::polygons : Level::spans)
+              .prelude();
     for (int i = 0; i < kValid + kDamaged; ++i) {
       auto& lines = s.lines.emplace_back();
       // A core with a front end takes both levels.

@@ -2,11 +2,14 @@
 #include "stimulus/coverage.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <string_view>
 
 #include "contract/derived.hpp"
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
+#include "number/first_centre.hpp"
+#include "stimulus/edge_tie.hpp"
 
 namespace kage::verif {
 
@@ -76,6 +79,8 @@ Coverage::Coverage(const Config& config, Level level) : config_(config), golden_
   share_most_ = add(table, "light", "TABLE with a share of all");
   counter_full_ = add(c.count_bits > 0, "shadow", "RESOLVE finds a full counter");
   black_ = add(table, "shadow", "RESOLVE finds more shadow than light");
+  half_sum_ = add(table && half_sum() <= static_cast<std::uint64_t>(c.lights) * derived::most_count(c) << c.shade_frac,
+                  "shadow", "RESOLVE finds the highest bit of a sum over the lights, and little else");
   weight_plus_ = add(has(Kind::SP), "shadow", "a weight of 1");
   weight_minus_ = add(has(Kind::SP), "shadow", "a weight of -1");
   weight_other_ = add(has(Kind::SP) && c.dsf_bits > 1, "shadow", "another weight");
@@ -100,6 +105,8 @@ Coverage::Coverage(const Config& config, Level level) : config_(config), golden_
   edge_last_ = add(polygons, "polygon", "an edge that ends its polygon");
   edge_left_ = add(polygons, "polygon", "an edge left of the line");
   edge_right_ = add(polygons, "polygon", "an edge right of the line");
+  edge_tie_ = add(polygons, "polygon", "an edge steps to the border between two pixels");
+  of_spans_ = add(polygons, "frame", "at the span level");
   plain_ = add(polygons && c.smooth != 0, "polygon", "one colour without GRADIENT");
   whole_cap_ = add(polygons && has(Kind::NC), "polygon", "NC over the whole line becomes IF");
   made_at_polygon_ = add(polygons, "polygon", "a span made before POLYGON");
@@ -165,7 +172,10 @@ void Coverage::hit_ramp(const Ramp& points, std::int64_t start, std::int64_t ste
 void Coverage::header(std::span<const std::uint32_t> words, const LineView& line) {
   hit(one_wide_, line.width() == 1);
   hit(widest_, line.width() == config_.max_width);
-  hit(one_line_, FrameHeader::read(words).height == 1);
+  const FrameHeader h = FrameHeader::read(words);
+  hit(one_line_, h.height == 1);
+  hit(of_spans_, h.level() == Level::spans);
+  end_ = h.height;
   state_told_ = shade_ = has_spans_ = false;
   waits_ = 0;
   came_ = {};
@@ -203,6 +213,8 @@ void Coverage::came(std::uint32_t /*index*/, const Token& t, std::span<const std
   hit(edge_left_, t.polygon.top_x < 0 && t.polygon.bottom_x < 0);
   const int right = golden_.line().width() * 256;
   hit(edge_right_, t.polygon.top_x > right && t.polygon.bottom_x > right);
+  const int end = std::min(first_centre(t.polygon.bottom_y), end_);
+  for (int y = golden_.line().y() + 1; y < end; ++y) hit(edge_tie_, edge_tie(t.polygon, y));
 }
 
 // At the polygon level: the front end makes this token, or makes IF of an NC.
@@ -304,6 +316,12 @@ bool Coverage::in_shadow(const PixelState& p, std::uint32_t bias) const {
   return ((p.dsf + bias) & derived::most_dsf(config_)) != 0;
 }
 
+// The least sum of shares over the lights that has its highest bit.
+std::uint64_t Coverage::half_sum() const {
+  const auto lights = static_cast<std::uint64_t>(config_.lights);
+  return std::bit_ceil(lights) << (config_.count_bits + config_.shade_frac - 1);
+}
+
 // The share that all shadowed samples together take of a channel of a pixel, in 2^-SHADE_FRAC.
 std::uint64_t Coverage::lost(const PixelState& p, std::size_t channel) const {
   const auto lights = static_cast<std::size_t>(config_.lights);
@@ -321,8 +339,11 @@ void Coverage::resolve(const LineView& line) {
     const PixelState p = line.pixel(x);
     hit(dark_, in_shadow(p, line.bias()));
     for (std::size_t l = 0; l < static_cast<std::size_t>(config_.lights); ++l) hit(counter_full_, p.counts[l] == full);
-    for (std::size_t c = 0; derived::has_table(config_) && c < static_cast<std::size_t>(config_.channels); ++c)
-      hit(black_, lost(p, c) > derived::whole_share(config_));
+    for (std::size_t c = 0; derived::has_table(config_) && c < static_cast<std::size_t>(config_.channels); ++c) {
+      const std::uint64_t sum = lost(p, c);
+      hit(black_, sum > derived::whole_share(config_));
+      hit(half_sum_, sum >= half_sum() && sum - half_sum() < derived::whole_share(config_));
+    }
   }
 }
 

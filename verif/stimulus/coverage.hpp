@@ -81,6 +81,7 @@ class Coverage : private CoreObserver {
   void volume(const Token& t, const LineView& line);
   void translucent(const SpanToken& s, const LineView& line);
   [[nodiscard]] bool in_shadow(const PixelState& p, std::uint32_t bias) const;
+  [[nodiscard]] std::uint64_t half_sum() const;
   [[nodiscard]] std::uint64_t lost(const PixelState& p, std::size_t channel) const;
   void resolve(const LineView& line);
   void segment(const SegmentToken& s);
@@ -103,6 +104,7 @@ class Coverage : private CoreObserver {
   bool has_spans_ = false;                        // the line at hand
   int waits_ = 0;                                 // edges that a POLYGON waits for
   bool gradient_ = false;                         // it has had a GRADIENT
+  int end_ = 0;                                   // one past the frame's last line
   Kind came_{};                                   // at the polygon level the stream's token
 
   std::array<Point, kKinds> kind_{};
@@ -112,10 +114,10 @@ class Coverage : private CoreObserver {
   Point tie_{}, behind_{}, unlit_{}, last_class_{};
   Point one_wide_{}, widest_{}, one_line_{}, bare_line_{};
   Point shade_none_{}, shade_zero_{}, shade_some_{}, shade_most_{};
-  Point table_none_{}, table_whole_{}, table_cut_{}, share_most_{}, black_{}, counter_full_{};
+  Point table_none_{}, table_whole_{}, table_cut_{}, share_most_{}, black_{}, half_sum_{}, counter_full_{};
   Point weight_plus_{}, weight_minus_{}, weight_other_{}, inside_at_ev_{}, bias_at_ev_{}, dark_{};
   Point alpha_none_{}, alpha_some_{}, alpha_all_{}, over_clear_{}, over_surface_{}, hidden_{};
-  Point edge_later_{}, edge_last_{}, edge_left_{}, edge_right_{}, whole_cap_{}, plain_{};
+  Point edge_later_{}, edge_last_{}, edge_left_{}, edge_right_{}, edge_tie_{}, whole_cap_{}, plain_{}, of_spans_{};
   Point made_at_polygon_{}, made_at_edge_{}, made_at_span_{}, made_at_eol_{};
   Point unit_tie_{}, index_tie_{}, blank_{}, dx_one_{}, dx_most_{}, unit_full_{}, last_face_{};
 };

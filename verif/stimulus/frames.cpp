@@ -2,6 +2,7 @@
 #include "stimulus/frames.hpp"
 
 #include <algorithm>
+#include <bit>
 
 #include "stimulus/random_spans.hpp"
 #include "stimulus/random_state.hpp"
@@ -54,7 +55,28 @@ bool random_sample(Random& random, const Config& c, int width, TokenWriter& w, s
   return volumes > 0;
 }
 
+/// Samples that each put the whole line in shadow, spread over the lights.
+void dark_samples(const Config& c, int width, int samples, TokenWriter& w, std::array<std::uint64_t, kKinds>& count) {
+  const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
+  for (int i = 0; i < samples; ++i) {
+    w.inside(1);
+    add(Kind::IF);
+    if (c.fsf != 0) {
+      w.ev(0, width);
+      add(Kind::EV);
+    }
+    w.es(0, width, i % c.lights);
+    add(Kind::ES);
+  }
+}
+
 }  // namespace
+
+int half_sum(const Config& c) {
+  if (!derived::has_table(c)) return 0;
+  const int samples = static_cast<int>(std::bit_ceil(static_cast<unsigned>(c.lights))) << (c.count_bits - 1);
+  return samples > c.lights * static_cast<int>(derived::most_count(c)) ? 0 : samples;
+}
 
 std::array<std::uint64_t, kKinds> random_frame(Random& random, const Config& c, int width, int height,
                                                std::vector<std::uint32_t>& words, std::uint32_t number,
@@ -72,8 +94,12 @@ std::array<std::uint64_t, kKinds> random_frame(Random& random, const Config& c, 
       w.op(random_span(random, c, width, style, home, state.classes()));
       add(Kind::OP);
     }
-    const int samples = c.dsf_bits == 0 ? 0 : c.count_bits == 0 ? 1 : random.in(0, style.most_samples);
-    bool any_volume = false;
+    const bool dark = style.dark_samples > 0 && derived::has_table(c) && random.chance(style.dark_lines);
+    if (dark) dark_samples(c, width, style.dark_samples, w, count);
+    bool any_volume = dark;
+    const int samples = c.dsf_bits == 0 || style.dark_samples > 0 ? 0
+                        : c.count_bits == 0                       ? 1
+                                                                  : random.in(0, style.most_samples);
     for (int sample = 0; sample < samples; ++sample)
       any_volume |= random_sample(random, c, width, w, count, style, home);
     if (any_volume) {

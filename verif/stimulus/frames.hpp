@@ -22,9 +22,17 @@ struct FrameStyle {
   /// Spans as a port takes them: accumulators may wrap, which a file may not have, and many spans meet at the same few
   /// pixels and depths, which is what forwarding is for.
   bool port = false;
+  /// With a table: every share is all of a colour, and so many samples, spread over the lights, put a line in shadow
+  /// from end to end, in place of others; that share of the lines.
+  int dark_samples = 0;
+  double dark_lines = 1;
   /// Frames with a tree, where the configuration has units: 0 none, 1 all that are narrow enough.
   double trees = 0.7;
 };
+
+/// Samples of FrameStyle::dark_samples that make the highest bit of the sum over the lights, and no other; 0 if the
+/// counters do not hold so many.
+int half_sum(const Config& c);
 
 /// Append a valid frame; returns how many tokens of each kind it has.
 std::array<std::uint64_t, kKinds> random_frame(Random& random, const Config& c, int width, int height,

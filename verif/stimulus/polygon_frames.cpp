@@ -8,6 +8,7 @@
 
 #include "number/first_centre.hpp"
 #include "polygon/place.hpp"
+#include "stimulus/edge_tie.hpp"
 #include "stimulus/random_spans.hpp"
 #include "stimulus/random_state.hpp"
 
@@ -188,6 +189,7 @@ class RandomPolygons {
         random_->chance(0.5) ? farthest : random_->in(y + 1, std::min(farthest, y + 1 + style_.most_lines));
     t.bottom_x = across();
     t.bottom_y = above(bottom);
+    if (random_->chance(0.3)) to_tie(t, y, bottom);
     t.last = p.end != kForever && bottom == p.end && (side == p.last || random_->chance(0.5));
     s = {bottom, t.bottom_x, t.bottom_y};
     if (random_->chance(0.05)) s.x = across();  // the outline has a gap
@@ -201,6 +203,30 @@ class RandomPolygons {
     if (side == p.last && p.end != kForever && s.next >= p.end && s.next != kForever) s.next = p.end - 1;
     if (s.next != kForever && first_centre(s.y) > s.next) s.y = above(s.next);
     return t;
+  }
+
+  /// Moves an edge that begins on line y and reaches line `bottom`, across and by a pixel at most, so that the step to
+  /// a line between is a tie, if a few slopes near its own have one. The outline then has a gap.
+  void to_tie(PolygonToken& t, int y, int bottom) {
+    if (bottom < y + 2) return;
+    const int line = random_->in(y + 1, std::min(bottom - 1, y + 8));
+    constexpr int kSlopes = 16;
+    for (int slope = 0; slope < kSlopes; ++slope) {
+      PolygonToken moved = t;
+      moved.bottom_x += slope;
+      // Across by a subpixel is dy of past_centre(); it is a tie if that leaves 1 .. 256.
+      const std::int64_t dy = std::int64_t{t.bottom_y} - t.top_y;
+      const std::int64_t past = past_centre(moved, line) - 1;
+      if (past % dy >= 256) continue;
+      const auto back = static_cast<int>(past / dy);
+      moved.top_x -= back;
+      moved.bottom_x -= back;
+      if (moved.top_x < -kMostCoordinate - 1 || moved.bottom_x < -kMostCoordinate - 1 ||
+          moved.bottom_x > kMostCoordinate)
+        continue;
+      t = moved;
+      return;
+    }
   }
 
   Alive polygon(const Position& at, int y) {

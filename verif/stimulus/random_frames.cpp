@@ -139,6 +139,10 @@ Words sound_frame(Random& random, const Config& c, std::uint32_t number, Level l
     style.most_samples = (3 << c.count_bits) * c.lights;
     style.most_opaque = style.most_volumes = style.most_in_volume = 2;
   }
+  if (half_sum(c) > 0 && random.chance(0.04)) {  // a line of many tokens, so it is the only one
+    style.dark_samples = half_sum(c);
+    height = 1;
+  }
   if (random.chance(0.15)) style.most_opaque = style.most_volumes = 0;  // line upon line, and all that a line needs
   if (random.chance(0.05)) {                                            // lines with nothing on them
     style.most_opaque = style.most_volumes = style.most_translucent = style.most_samples = 0;
@@ -147,6 +151,19 @@ Words sound_frame(Random& random, const Config& c, std::uint32_t number, Level l
   }
   Words words;
   random_frame(random, c, any_width(), height, words, number, style);
+  return words;
+}
+
+Words earlier_frame(Random& random, const Config& c, std::uint32_t number, Level level) {
+  if (random.chance(0.4)) return damaged_frame(random, c, number, level);
+  if (random.chance(0.5)) return sound_frame(random, c, number, level);
+  FrameStyle style{.most_opaque = 0, .most_volumes = 0, .most_translucent = 0, .most_samples = 0};
+  if (random.chance(0.7)) {
+    style.most_opaque = style.dark_samples = 1;
+    style.dark_lines = 0.5;
+  }
+  Words words;
+  random_frame(random, c, random.in(1, 2), random.in(8, 24), words, number, style);
   return words;
 }
 
@@ -197,20 +214,28 @@ std::optional<Manner> random_manner(const std::string& name) {
   throw Error(fmt::format("{}: no such random frames (there are {})", name, names));
 }
 
+Level RandomFrames::any_level(Random& random) const {
+  return level_ == Level::polygons && random.chance(0.8) ? Level::polygons : Level::spans;
+}
+
 Words RandomFrames::words(int index) const {
   Random random(mixed(seed_, static_cast<std::uint64_t>(index)));
+  const Level level = any_level(random);
   const bool wrong = manner_ == Manner::damaged || (manner_ == Manner::mixed && random.chance(0.5));
   const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
-  if (wrong) return damaged_frame(random, config_, number, level_);
-  if (index % kSizes == kTall) return tall_frame(random, config_, number, level_);
-  if (index % kSizes == kWide) return wide_frame(random, config_, number, level_);
-  return sound_frame(random, config_, number, level_);
+  if (wrong) return damaged_frame(random, config_, number, level);
+  if (index % kSizes == kTall) return tall_frame(random, config_, number, level);
+  if (index % kSizes == kWide) return wide_frame(random, config_, number, level);
+  return sound_frame(random, config_, number, level);
 }
 
 std::function<Words(int)> RandomFrames::prelude() const {
   if (manner_ != Manner::mixed) return nullptr;
-  return [config = config_, seed = mixed(~seed_), level = level_](int index) {
-    return RandomFrames(config, Manner::sound, seed, level).words(index);
+  return [frames = RandomFrames(config_, manner_, mixed(~seed_), level_)](int index) {
+    Random random(mixed(frames.seed_, static_cast<std::uint64_t>(index)));
+    const Level level = frames.any_level(random);
+    const auto number = static_cast<std::uint32_t>(random.integer(0, UINT32_MAX));
+    return earlier_frame(random, frames.config_, number, level);
   };
 }
 

@@ -36,6 +36,11 @@ std::vector<std::uint32_t> wide_frame(Random& random, const Config& c, std::uint
 std::vector<std::uint32_t> damaged_frame(Random& random, const Config& c, std::uint32_t number,
                                          Level level = Level::spans);
 
+/// What may be in a core when the next frame comes: a sound frame, a damaged one, or one of many lines of a pixel or
+/// two with nothing on them, of which more are under way at a time than of any other.
+std::vector<std::uint32_t> earlier_frame(Random& random, const Config& c, std::uint32_t number,
+                                         Level level = Level::spans);
+
 /// What random frames are like.
 enum class Manner {
   sound,    ///< sound_frame()
@@ -59,7 +64,8 @@ std::optional<Manner> random_manner(const std::string& name);
 /// Frames that follow from configuration, manner, seed and their number alone: no frame depends on another.
 class RandomFrames {
  public:
-  /// Frames at the polygon level need a configuration with ACTIVE > 0.
+  /// At the polygon level, which needs a configuration with ACTIVE > 0, every fifth frame or so is at the span level,
+  /// as such a core takes both.
   RandomFrames(const Config& config, Manner manner, std::uint64_t seed, Level level = Level::spans)
       : config_(config), manner_(manner), seed_(seed), level_(level) {}
 
@@ -72,10 +78,12 @@ class RandomFrames {
   /// The words of frame `index`.
   [[nodiscard]] std::vector<std::uint32_t> words(int index) const;
 
-  /// Of mixed frames, the sound frame that may go ahead of each, by its number; of others nothing.
+  /// Of mixed frames, the frame that may go ahead of each, by its number: earlier_frame(). Of others nothing.
   [[nodiscard]] std::function<std::vector<std::uint32_t>(int index)> prelude() const;
 
  private:
+  Level any_level(Random& random) const;
+
   Config config_;
   Manner manner_;
   std::uint64_t seed_;

@@ -153,19 +153,20 @@ class RandomTree {
 };
 
 /// The entries of a table of so many classes, at a port often with some of another's.
-inline std::vector<TableToken> random_table(Random& random, const Config& c, int classes, bool port) {
+inline std::vector<TableToken> random_table(Random& random, const Config& c, int classes, const FrameStyle& style) {
   if (!derived::has_table(c)) return {};
   const auto most = static_cast<int>(derived::whole_share(c));
   // Shares that black out at once, and such that take many samples.
   const int usual = random.chance(0.5) ? most : std::max(1, most >> c.count_bits);
   std::vector<TableToken> entries;
   const int begun =
-      port && classes < derived::most_class(c) ? random.in(0, c.lights - 1) : 0;  // of a class never whole
+      style.port && classes < derived::most_class(c) ? random.in(0, c.lights - 1) : 0;  // of a class never whole
   for (int k = 1; k <= classes + 1; ++k)
     for (int light = 0; light < (k <= classes ? c.lights : begun); ++light) {
       TableToken t{k, light, {}};
       for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i)
-        t.share[i] = static_cast<std::uint32_t>(random.chance(0.1) ? most : random.in(0, usual));
+        t.share[i] =
+            static_cast<std::uint32_t>(style.dark_samples > 0 || random.chance(0.1) ? most : random.in(0, usual));
       entries.push_back(t);
     }
   return entries;
@@ -182,7 +183,7 @@ class RandomState {
         with_tree_(c.units > 0 && width <= RandomTree::widest(c) && random.chance(style.trees)),
         classes_(most_classes(random, c)),
         tree_(random, c, width, with_tree_ ? height : 0, style.port, classes_) {
-    const std::vector<TableToken> table = random_table(random, c, classes_, style.port);
+    const std::vector<TableToken> table = random_table(random, c, classes_, style);
     of(Kind::TABLE) += table.size();
     // Faces may come without a tree, before SHADE or after it.
     const bool has_faces = with_tree_ || (c.units > 0 && random.chance(0.2));

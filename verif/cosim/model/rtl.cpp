@@ -127,6 +127,16 @@ class Rtl : public RtlCore {
     for (const RegisterAccess* a : {write, read})
       if (a != nullptr) (void)answered(a->name, a->bus.address, a->bus.answer);
   }
+  void access_at_once(RegisterAccess& access, bool write) override {
+    kage_rtl_access& bus = access.bus;
+    bus.answer =
+        write ? table_->reg_write(model_, bus.address, bus.data) : table_->reg_read(model_, bus.address, &bus.data);
+    (void)answered(access.name, bus.address, bus.answer);
+  }
+  void reset() override {
+    table_->reset(model_, 2);
+    errors_ = frames_ = 0;
+  }
   [[nodiscard]] bool interrupt() const override { return table_->irq(model_) != 0; }
   void pass(std::uint64_t clocks) override { (void)checked(table_->run(model_, kForever, clocks)); }
 
@@ -145,6 +155,10 @@ class Rtl : public RtlCore {
  private:
   static constexpr std::uint64_t kForever = std::numeric_limits<std::uint64_t>::max();
   static constexpr std::uint64_t kMostClocks = 50'000'000;  // of a small frame
+  // From the last beat of a frame to the first of the next: more than any configuration takes from the one to its last
+  // pixel, where the frame is small and output is taken.
+  static constexpr std::uint64_t kMostApart = 128;
+  static constexpr std::uint64_t kFewApart = 16;
 
   [[nodiscard]] int checked(int why) const {
     const std::string failure = table_->failure(model_);
@@ -170,8 +184,7 @@ class Rtl : public RtlCore {
   void open() {
     if (open_) return;
     open_ = true;
-    if (broken_) table_->reset(model_, 2);
-    if (broken_) errors_ = frames_ = 0;
+    if (broken_) reset();
     broken_ = stuck_ = announced_ = ended_ = false;
     width_ = height_ = 0;
     lines_.start();
@@ -189,28 +202,34 @@ class Rtl : public RtlCore {
     ahead_ = 0;
     earlier_.clear();
     earlier_wrong_ = 0;
+    earlier_errors_ = 0;
     const std::uint64_t chance = mixed(mixed(options_.seed, static_cast<std::uint64_t>(number_)));
     constexpr std::uint64_t kOf = 8;
-    if (chance % kOf < 2)
+    if (chance % kOf < 1)
       cut(chance / kOf);
     else if (chance % kOf < 4)
-      follow();
+      follow(chance / kOf);
   }
 
-  /// A frame comes whole, and is announced to the model.
-  std::vector<std::uint32_t> submit_earlier() {
-    std::vector<std::uint32_t> words = options_.prelude(number_);
-    const FrameHeader h = FrameHeader::read(words);
-    table_->expect(model_, static_cast<std::uint32_t>(h.width), static_cast<std::uint32_t>(h.height));
+  /// A frame comes whole, and is announced to the model where the golden core takes its header. Returns what the golden
+  /// core says of it; its pixels are kept.
+  FrameStatus submit_earlier(int number) {
+    const std::vector<std::uint32_t> words = options_.prelude(number);
+    const FrameStatus status = GoldenCore(config_).frame(words, [&](int, std::span<const std::uint8_t> line) {
+      earlier_.insert(earlier_.end(), line.begin(), line.end());
+    });
+    if (status.width != 0)
+      table_->expect(model_, static_cast<std::uint32_t>(status.width), static_cast<std::uint32_t>(status.height));
     table_->submit(model_, words.data(), words.size(), 1);
-    return words;
+    return status;
   }
 
   /// A reset within a frame, or behind it.
   void cut(std::uint64_t chance) {
     before_ = Before::reset;
     table_->record(model_, 0);
-    (void)submit_earlier();
+    (void)submit_earlier(number_);
+    earlier_.clear();
     (void)checked(table_->run(model_, kForever, chance % 2048));
     table_->reset(model_, 1 + static_cast<std::uint32_t>(chance / 2048 % 3));
     table_->clear_pixels(model_);
@@ -218,21 +237,41 @@ class Rtl : public RtlCore {
     errors_ = frames_ = 0;
   }
 
-  /// A frame ahead of the one at hand, which does not wait for its end.
-  void follow() {
+  /// A frame ahead of the one at hand, which does not wait for its end: it comes right behind the last beat, or up to
+  /// kMostApart clocks later, mostly few. Sometimes two frames, so that three are in the core.
+  void follow(std::uint64_t chance) {
     before_ = Before::frame;
     if (recording_) table_->record(model_, 0);
-    const std::vector<std::uint32_t> words = submit_earlier();
-    (void)GoldenCore(config_).frame(words, [&](int, std::span<const std::uint8_t> line) {
-      earlier_.insert(earlier_.end(), line.begin(), line.end());
-    });
-    ahead_ = recording_ ? 0 : 1;
-    if (!recording_) return;
-    (void)checked(table_->run(model_, earlier_.size() / static_cast<std::size_t>(config_.channels), kMostClocks));
+    const int frames = chance % 4 == 0 ? 2 : 1;
+    for (int i = frames - 1; i >= 0; --i) {
+      const FrameStatus status = submit_earlier(i == 0 ? number_ : -1 - number_);
+      if (status.error == ErrorCode::NONE) continue;
+      ++earlier_errors_;
+      earlier_error_ = status;
+    }
+    if (!recording_) {
+      ahead_ = static_cast<std::uint32_t>(frames);
+      const std::uint64_t apart = chance / 4 % 4;
+      if (apart == 0) return;
+      (void)checked(table_->run_dry(model_, kMostClocks));
+      (void)checked(table_->run(model_, kForever, chance / 16 % (apart == 1 ? kMostApart : kFewApart)));
+      look_at_earlier();
+      return;
+    }
+    (void)checked(table_->run(model_, earlier_pixels(), kMostClocks));
+    ahead_ = static_cast<std::uint32_t>(frames) - 1;
     (void)wait_for_end();
+    errors_ += std::exchange(earlier_errors_, 0);
     table_->clear_pixels(model_);
     earlier_.clear();
     table_->record(model_, 1);
+  }
+
+  /// What the model has seen of the frame ahead so far, whose counts are forgotten now.
+  void look_at_earlier() {
+    kage_rtl_stats stats{};
+    table_->stats(model_, &stats);
+    if (!misconduct(stats, {}).empty()) ++earlier_wrong_;
   }
 
   /// The first of what is held.
@@ -319,10 +358,23 @@ class Rtl : public RtlCore {
   }
 
   FrameStatus status() {
+    const std::uint32_t known = errors_;
+    const std::uint32_t expected = known + earlier_errors_;
+    errors_ = read("ERRORS", KAGE_REG_ERRORS);
+    const bool lost = known <= errors_ && errors_ < expected;
+    if (errors_ != expected && !lost) return newest_error();
+    // None is of the frame at hand: the newest is that of the frames ahead, if they have any.
+    if (lost || (earlier_errors_ > 0 && !same_error(newest_error(), earlier_error_))) ++earlier_wrong_;
+    return {};
+  }
+
+  static bool same_error(const FrameStatus& a, const FrameStatus& b) {
+    return a.error == b.error && a.line == b.line && a.frame == b.frame && a.token == b.token &&
+           (!is_of_unit(a.error) || a.unit == b.unit);
+  }
+
+  FrameStatus newest_error() {
     FrameStatus s;
-    const std::uint32_t errors = read("ERRORS", KAGE_REG_ERRORS);
-    if (errors == errors_) return s;
-    errors_ = errors;
     const std::uint32_t error = read("ERROR", KAGE_REG_ERROR);
     s.error = static_cast<ErrorCode>(KAGE_FIELD(error, KAGE_ERROR_CODE));
     s.line = KAGE_FIELD(error, KAGE_ERROR_LINE);
@@ -382,7 +434,9 @@ class Rtl : public RtlCore {
 
   // Of what comes right before the frame at hand:
   Before before_ = Before::nothing;
-  std::uint32_t ahead_ = 0;            // 1: there is one whose end was not seen yet
+  std::uint32_t ahead_ = 0;            // frames ahead whose end was not seen yet
+  std::uint32_t earlier_errors_ = 0;   // errors that were not seen yet, as the golden core has them
+  FrameStatus earlier_error_;          // the last of them
   std::vector<std::uint8_t> earlier_;  // its pixels to come, as the golden core has them
   int earlier_wrong_ = 0;              // pieces of them that came otherwise
 

@@ -29,9 +29,10 @@ struct RtlOptions {
   /// frame at hand. Without it, the text goes to standard error.
   std::function<void(int frame, std::string_view text)> text = {};
 
-  /// Gives the words of a sound frame for every number. With it, some frames meet a core that was reset within such a
-  /// frame just before, and some come right behind one, before its pixels have left; which do follows from seed and
-  /// number. Its pixels are looked at too. A core that records has seen its end before.
+  /// Gives the words of a frame for every number, which may break rules. With it, some frames meet a core that was
+  /// reset within such a frame just before, and some come right behind one or a few clocks later, mostly before its
+  /// pixels have left; which do follows from seed and number. Its pixels and its error are looked at too. A core that
+  /// records has seen its end before.
   std::function<std::vector<std::uint32_t>(int number)> prelude = {};
 };
 
@@ -49,7 +50,14 @@ class RtlCore : public Core {
   /// its time (kage_rtl_table::reg_access). Throws RegisterError where no response comes, or one that breaks
   /// AXI4-Lite's rules; CoreFailure as of Core.
   virtual void access(RegisterAccess* write, RegisterAccess* read) = 0;
+
+  /// A write, or a read, whose address and data come in its first clock, and whose response is taken in the clock in
+  /// which it comes. Throws as access() does.
+  virtual void access_at_once(RegisterAccess& access, bool write) = 0;
   [[nodiscard]] virtual bool interrupt() const = 0;
+
+  /// Two clocks of reset, between frames.
+  virtual void reset() = 0;
 
   /// Whether it stood still in the frame at hand, with input waiting: it takes nothing more of it.
   [[nodiscard]] virtual bool stuck() const = 0;
