@@ -5,15 +5,15 @@
 
 #include <utility>
 
+#include "cosim/register_clocks.hpp"
 #include "cosim/register_frames.hpp"
+#include "cosim/register_port.hpp"
 #include "kage/defs.hpp"
 #include "kage/registers.h"
 
 namespace kage::cosim {
 namespace {
 
-constexpr int kOkay = 0;
-constexpr int kSlverr = 2;
 constexpr std::uint32_t kWatchdog = 50;       // clocks
 constexpr std::uint64_t kLong = 20000;        // more than any frame here takes to its standstill
 constexpr std::uint32_t kLastAddress = 0xFC;  // that the port has
@@ -22,18 +22,14 @@ constexpr std::uint32_t kInterrupts = KAGE_IRQ_FRAME_END_MASK | KAGE_IRQ_ERROR_M
 
 constexpr std::uint32_t kOverlaps = 12;
 
-struct Wrong {
-  std::string what;
-};
-
-/// Throws Wrong at the first thing that is.
-class Checker {
+class Checker : RegisterPort {
  public:
   Checker(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames)
-      : rtl_(rtl), config_(config), frames_(frames) {}
+      : RegisterPort(rtl), rtl_(rtl), config_(config), frames_(frames) {}
 
   void all() {
     constants();
+    at_reset();
     writable();
     overlaps();
     frames();
@@ -43,30 +39,11 @@ class Checker {
     counts("CYCLES", KAGE_REG_CYCLES, true);
     input_stops();
     untouched();
+    reset();
+    check_clocks(*this, config_);
   }
 
  private:
-  static void same(const std::string& name, std::uint32_t expected, std::uint32_t actual) {
-    if (expected != actual) throw Wrong{fmt::format("{}: expected {:#x}, got {:#x}", name, expected, actual)};
-  }
-  std::uint32_t read(const char* name, std::uint32_t address, int response = kOkay) {
-    RegisterAccess r{name, {address, 0, 0, 0}};
-    rtl_.access(nullptr, &r);
-    responded(r, response);
-    return r.bus.data;
-  }
-  void expect(const char* name, std::uint32_t address, std::uint32_t value) { same(name, value, read(name, address)); }
-  void write(const char* name, std::uint32_t address, std::uint32_t value, int response = kOkay,
-             unsigned strobes = 0b1111) {
-    RegisterAccess w{name, {address, value, strobes, 0}};
-    rtl_.access(&w, nullptr);
-    responded(w, response);
-  }
-  static void responded(const RegisterAccess& access, int response) {
-    same(fmt::format("response of {}", access.name), static_cast<std::uint32_t>(response),
-         static_cast<std::uint32_t>(access.bus.answer));
-  }
-
   void constants() {
     const Config& c = config_;
     expect("ID", KAGE_REG_ID, KAGE_ID_VALUE);
@@ -77,6 +54,21 @@ class Checker {
                KAGE_FIELD_IS(KAGE_SHAPE_BEAT_WORDS, static_cast<std::uint32_t>(c.beat_words)) |
                KAGE_FIELD_IS(KAGE_SHAPE_LANES, static_cast<std::uint32_t>(c.lanes)) |
                KAGE_FIELD_IS(KAGE_SHAPE_MAX_WIDTH, static_cast<std::uint32_t>(c.max_width)));
+  }
+
+  // What a reset leaves in registers that change, of a core that stands still; CYCLES counts already.
+  void at_reset() {
+    for (std::uint32_t a = KAGE_REG_CONTROL; a <= KAGE_REG_STALL; a += 4)
+      if (a != KAGE_REG_CYCLES) expect(fmt::format("address {:#04x}, behind reset", a).c_str(), a, 0);
+    same("irq, behind reset", 0, rtl_.interrupt() ? 1 : 0);
+  }
+
+  // All that is written and counted holds something by now.
+  void reset() {
+    write("CONTROL", KAGE_REG_CONTROL, kInterrupts);
+    write("WATCHDOG", KAGE_REG_WATCHDOG, 0x12345678);
+    rtl_.reset();
+    at_reset();
   }
 
   // CONTROL is written by interrupts().
@@ -323,7 +315,7 @@ KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words, c
 std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames) {
   try {
     Checker(rtl, config, frames).all();
-  } catch (const Wrong& w) {
+  } catch (const WrongRegister& w) {
     return w.what;
   }
   return std::nullopt;

@@ -25,7 +25,8 @@ KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words, c
 /// The first register that is not as it must be: "FRAMES: expected 3, got 2". `rtl` is new; it is given the frames, and
 /// some of its own, so that input is dropped, units wait, and either port stands still. Looked at are constants, bytes
 /// that are written alone, counters, lost clocks, the newest error, every interrupt with every enable, what the
-/// watchdog says of a standstill, writes to read-only registers, and all addresses behind the last register.
+/// watchdog says of a standstill, writes to read-only registers, all addresses behind the last register, what a reset
+/// leaves, and accesses in every clock round an event (register_clocks.hpp).
 /// CoreFailure as of Core.
 std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames);
 

@@ -107,6 +107,15 @@ FrameInParts early_error(const Config& config) {
   return f;
 }
 
+std::vector<std::uint32_t> early_end(const Config& config) {
+  std::vector<std::uint32_t> words;
+  TokenWriter w(config, words);
+  w.header({register_frame_width(config), 2, 0, kErrorNumber});
+  w.eol(0);
+  w.end();
+  return words;
+}
+
 FrameInParts unit_behind(const Config& config) {
   for (int faces = 0; faces <= kMostFaces; ++faces) {
     bool whole = false;

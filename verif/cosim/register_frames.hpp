@@ -32,6 +32,9 @@ FrameInParts eight_lines(const Config& config);
 /// error to there are three whole beats or more.
 FrameInParts early_error(const Config& config);
 
+/// A frame whose END comes before its second line: LINE, found once the last beat has come.
+std::vector<std::uint32_t> early_end(const Config& config);
+
 /// For a core with two units or more. In the first part unit 0 gets its line; unit 1 gets less of it, or nothing.
 FrameInParts unit_behind(const Config& config);
 
