@@ -12,6 +12,7 @@
 #include "kage/error.hpp"
 #include "old_evidence.hpp"
 #include "results.hpp"
+#include "rtl_changed.hpp"
 #include "signals.hpp"
 
 namespace kage::cli {
@@ -163,6 +164,10 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
   remove_old_evidence(files, o_.out, source.name(), source.is_random(), steps_, r);
   if (r.first_difference && r.first_difference->other_state) o_.rtl.options.initial = kOtherState;
   report::SceneRecord record = record_of(r);
+  if (r.same && !source.is_random() && !o_.silent && rtl_changed(o_.rtl))
+    source.note(
+        "the RTL is not the commit's, and these frames show no difference; random frames reach more than a "
+        "scene does: kage cosim random:mixed, and kage regress");
   const bool whole = after_verdict([&] {
     look_into(files, r, search);
     if (r.first_difference && source.is_random() && !o_.out.empty() && !r.first_difference->of_registers())

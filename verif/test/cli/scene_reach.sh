@@ -41,8 +41,10 @@ has three-lights TABLE ES IF
 has glass TP
 has polyhedra FACE SEG TREE --config polyhedra
 
-# Depths in both halves of the range, ties, and depths beyond both ends, from units, from spans in groups and in columns.
-reaches depths polyhedra 160x120 next_signed next_tie cell_signed unit_clamp unit_clamp_high
+# Depths in both halves of the range, ties, between units of which the later has the body that was drawn first (a draw index
+# is of one body, so no scene has equal keys in two units, which are what cell_tie needs: random frames have), and depths
+# beyond both ends, from units, from spans in groups and in columns.
+reaches depths polyhedra 160x120 next_signed next_tie cell_signed cell_index unit_clamp unit_clamp_high
 reaches depths default 160x120 ramp_under ramp_over
 reaches depths default 320x240 ramp_under ramp_over
 reaches depths systolic64 64x48 systolic_clamp
