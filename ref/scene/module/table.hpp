@@ -14,7 +14,7 @@ namespace kage::scene {
 
 struct MeshModule : ModuleHead {
   static constexpr const char* kModule = "kage_meshes";
-  static constexpr const char* kWhatFor = "files other than glTF 2.0 are read with it";
+  static constexpr const char* kWhatFor = "files other than glTF 2.0, OBJ, PLY, STL and OFF are read with it";
   static std::size_t room() { return 0; }  // it starts no threads, and the child that opens it may end
 
   /// As import_assimp().

@@ -8,7 +8,7 @@ bound=$(LD_TRACE_LOADED_OBJECTS=1 "$kage" | grep -v -E 'asan|ubsan')
 [ "$(wc -l <<<"$bound")" -le 20 ] || fail "every command binds: $bound"
 if grep -E 'OpenImageIO|assimp|OpenEXR|libav' <<<"$bound"; then fail "every command binds what few need"; fi
 
-# Without modules: scenes of glTF, pictures as PNG, streams.
+# Without modules: scenes of glTF and OBJ, pictures as PNG, streams.
 empty=$PWD/empty
 mkdir empty
 without() { KAGE_MODULE_DIR=$empty "$@"; }
@@ -16,13 +16,15 @@ expect 0 without "$kage" render courtyard --size 64x48 --frames 1 --out out
 expect 0 without "$kage" stream courtyard --size 64x48 --frames 1 --out s.kage
 expect 0 without "$kage" info s.kage
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >mesh.obj
-trouble "$empty/libkage_meshes.so: cannot open shared object file: No such file or directory, and files other than glTF 2.0 are read with it" \
-  without "$kage" render mesh.obj --size 64x48 --frames 1 --out out
+expect 0 without "$kage" render mesh.obj --size 64x48 --frames 1 --out out
+cube=/usr/share/glmark2/models/cube.3ds
+trouble "$empty/libkage_meshes.so: cannot open shared object file: No such file or directory, and files other than glTF 2.0, OBJ, PLY, STL and OFF are read with it" \
+  without "$kage" render "$cube" --size 64x48 --frames 1 --out out
 trouble "$empty/libkage_pictures.so: cannot open" without "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
 trouble "$empty/libkage_pictures.so: cannot open" without "$kage" render courtyard --size 64x48 --frames 1 --exr --out exr
 [ ! -e exr ] || fail "a picture that cannot be written leaves a folder"
 expect 0 "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
-expect 0 "$kage" render mesh.obj --size 64x48 --frames 1 --out out
+expect 0 "$kage" render "$cube" --size 64x48 --frames 1 --out out
 
 # Damaged, and of another build.
 echo junk >empty/libkage_pictures.so

@@ -41,6 +41,21 @@ assert [words(line.split(": ")[1]) for line in lines] == [words(r["again"]) for 
 PY
 [ ! -e out ] || fail "--list made the folder"
 
+# Configurations with a front end get polygons, others if they are asked to; and some of the named ones have a front end.
+echo '{MAX_WIDTH: 40, LANES: 2, ACTIVE: 5}' >front.yaml
+lists_polygons() {
+  expect 0 "$kage" regress --list "${@:2}"
+  [ "$(grep -c -- ' --front-end rtl' "$temp/stdout")" = "$1" ] || fail "${*:2}: not $1 runs with polygons: $(cat "$temp/stdout")"
+}
+lists_polygons 4 --config front.yaml --config small.yaml
+lists_polygons 8 --config front.yaml --config small.yaml --front-end rtl
+lists_polygons 0 --config front.yaml --config small.yaml --front-end host
+expect 0 "$kage" regress --list
+grep -q '^mixed.polygons.0: .* --front-end rtl' "$temp/stdout" || fail "no named configuration gets polygons"
+expect 1 "$kage" regress --rounds 1 --config front.yaml --fault front_end_edge --no-divergence --out front
+grep -q '^random.front.0: different: ' "$temp/stdout" || fail "a wrong front end is not found: $(cat "$temp/stdout")"
+expect 0 "$kage" regress --rounds 1 --config front.yaml --front-end host --fault front_end_edge --out front
+
 # The line that a run stands for gives the same.
 again=$(python3 -c 'import json; print(json.load(open("1.json"))["scenes"][2]["again"])')
 expect 0 ${again/#kage /$kage } --out again --json again.json
