@@ -29,10 +29,10 @@ struct RtlOptions {
   /// frame at hand. Without it, the text goes to standard error.
   std::function<void(int frame, std::string_view text)> text = {};
 
-  /// Gives the words of a frame for every number, which may break rules. With it, some frames meet a core that was
-  /// reset within such a frame just before, and some come right behind one or a few clocks later, mostly before its
-  /// pixels have left; which do follows from seed and number. Its pixels and its error are looked at too. A core that
-  /// records has seen its end before.
+  /// Gives the words of a frame for every number, negative ones too; it may break rules. With it, some frames meet a
+  /// core that was reset within such a frame just before, and some come right behind one or two, or a few clocks later,
+  /// mostly before their pixels have left; which do follows from seed and number. Those pixels and errors are looked at
+  /// too. A core that records has seen their end before.
   std::function<std::vector<std::uint32_t>(int number)> prelude = {};
 };
 
