@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "cosim/model/model.hpp"
+#include "file/meant.hpp"
 #include "kage/error.hpp"
 #include "order_build.hpp"
 #include "planned.hpp"

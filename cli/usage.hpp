@@ -20,13 +20,6 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error);
 /// it, or an option that is given - where it means no standard output: one line that names it. Empty if there is none.
 std::string senseless_value(const CLI::App& app);
 
-/// The one of `names` that was probably meant, or "": a beginning, or a name that two slips of the finger or one in a
-/// short word turn into `text`.
-std::string nearest(const std::string& text, const std::vector<std::string>& names);
-
-/// " (did you mean NAME?)", or "" where nearest() has found none.
-std::string meant(const std::string& name);
-
 /// "rendr: no such command (did you mean render?)".
 std::string no_such_command(const CLI::App& app, const std::string& name);
 

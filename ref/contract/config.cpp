@@ -2,14 +2,17 @@
 #include "kage/config.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <filesystem>
 #include <set>
 
 #include "contract/config_text.hpp"
+#include "file/meant.hpp"
 #include "file/regular_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
@@ -35,6 +38,17 @@ std::string values_of(const Config& config, const RuleInfo& rule) {
   return text + ")";
 }
 
+std::vector<std::string> parameter_names() {
+  std::vector<std::string> names;
+  for (const ParamInfo& p : kParams) names.emplace_back(p.name);
+  return names;
+}
+
+std::string in_capitals(std::string name) {
+  for (char& letter : name) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
+  return name;
+}
+
 // `lines`: errors name the entry's line, for what a person wrote in a file.
 Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = false) {
   if (!node.IsMap()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
@@ -48,7 +62,7 @@ Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = 
     const auto* p = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& i) { return i.name == name; });
     if (p == kParams.end())
       throw Error(fmt::format(
-          "{}: no such parameter{}", place,
+          "{}: no such parameter{}{}", place, meant(in_capitals(name), parameter_names()),
           entry.second.IsScalar() ? "" : "; a file has the parameters of one configuration, with no name over them"));
     if (!seen.insert(name).second) throw Error(fmt::format("{}: given twice", place));
     int value = 0;
@@ -118,9 +132,10 @@ NamedConfig load_config(const std::string& name_or_file) {
   for (const NamedConfig& n : named)
     if (n.name == name_or_file) return n;
   if (!std::filesystem::exists(name_or_file)) {
-    std::string names;
-    for (const NamedConfig& n : named) names += (names.empty() ? "" : ", ") + n.name;
-    throw Error(fmt::format("{}: no such file, and no configuration of that name (there are {})", name_or_file, names));
+    std::vector<std::string> names;
+    for (const NamedConfig& n : named) names.push_back(n.name);
+    throw Error(fmt::format("{}: no such file, and no configuration of that name{} (there are {})", name_or_file,
+                            meant(name_or_file, names), fmt::join(names, ", ")));
   }
   return {name_or_file, from_yaml(read_yaml(name_or_file), name_or_file, true)};
 }

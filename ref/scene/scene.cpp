@@ -9,6 +9,7 @@
 
 #include "animation.hpp"
 #include "child.hpp"
+#include "file/meant.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "mesh.hpp"
@@ -275,7 +276,8 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
   if (path == name_or_path && fs::status(path, ec).type() == fs::file_type::not_found) {
     std::string names;
     for (const std::string& name : builtin) names += (names.empty() ? "" : ", ") + name;
-    throw Error(shown + ": no such file, and no built-in scene of that name (there are " + names + ")");
+    throw Error(shown + ": no such file, and no built-in scene of that name" + meant(shown, builtin) + " (there are " +
+                names + ")");
   }
   data->raw = scene::import_in_child(path, shown, options.allow_outside, options.wait);
   for (scene::RawMesh& mesh : data->raw.meshes)

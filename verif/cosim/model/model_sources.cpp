@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "cosim/model/sha256.hpp"
+#include "file/meant.hpp"
 #include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
@@ -71,7 +72,8 @@ std::vector<fs::path> files_of(const fs::path& data, const YAML::Node& roles, co
 fs::path fault_file(const fs::path& data, const YAML::Node& roles, const std::string& fault) {
   for (const fs::path& file : files_of(data, roles, "fault"))
     if (file.stem() == fault) return file;
-  throw Error(fmt::format("{}: no such fault (there are {})", fault, fmt::join(fault_names(), ", ")));
+  const std::vector<std::string> names = fault_names();
+  throw Error(fmt::format("{}: no such fault{} (there are {})", fault, meant(fault, names), fmt::join(names, ", ")));
 }
 
 YAML::Node roles_of(const fs::path& data) {

@@ -26,6 +26,12 @@ line "kage: no command given; see kage --help" "$kage"
 line "kage: nonsense: no such command; see kage --help" "$kage" nonsense
 line "kage: rendr: no such command (did you mean render?); see kage --help" "$kage" rendr courtyard --out none
 line "kage: cosmi: no such command (did you mean cosim?); see kage --help" "$kage" cosmi
+# The same of scenes, configurations, parameters and faults.
+trouble "courtyrad: no such file, and no built-in scene of that name (did you mean courtyard?) (there are " "$kage" info courtyrad
+trouble "glas: no such file, and no configuration of that name (did you mean glass?) (there are " "$kage" render courtyard --config glas --out none
+echo '{LANE: 2}' >lane.yaml
+trouble "lane.yaml: line 1: LANE: no such parameter (did you mean LANES?)" "$kage" render courtyard --config lane.yaml --out none
+trouble "wrong_compar: no such fault (did you mean wrong_compare?) (there are " "$kage" cosim courtyard --fault wrong_compar --out none
 line "kage: --verson: no such option (did you mean --version?); see kage --help" "$kage" --verson
 line "kage: --sise: no such option (did you mean --size?); see kage render --help" "$kage" render courtyard --sise 3x3
 line "kage: --conf=x: no such option (did you mean --config?); see kage cosim --help" "$kage" cosim courtyard --conf=x
