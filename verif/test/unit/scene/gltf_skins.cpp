@@ -131,7 +131,7 @@ TEST_CASE("inverse bind matrices lead from the mesh to the joint") {
 }
 
 TEST_CASE("weights of every type, of one set and of two, whatever their sum") {
-  const auto corner = [](File f) { return f.vertex(0); };
+  const auto corner = [](const File& f) { return f.vertex(0); };
   for (const int joint_type : {5121, 5123}) {
     const auto with = [&](auto add_weights) {
       File f = two_joints();

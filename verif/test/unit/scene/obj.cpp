@@ -6,6 +6,7 @@
 using namespace kage;
 using test::area;
 using test::colors;
+using test::joined;
 using test::PlainFiles;
 
 namespace {
@@ -118,17 +119,17 @@ TEST_CASE("numbers are the nearest floats") {
 TEST_CASE("an OBJ file's colours are those of its vertices, wherever in it they begin") {
   const PlainFiles obj(".obj");
   const std::string red = "v 0 0 1 1 0 0\nv 1 0 1 1 0 0\nv 0 1 1 1 0 0\n";
-  CHECK(colors(obj.frame(kThree + "f 1 2 3\n" + red + "f 4 5 6\n")) == "600 600 600, 1000 0 0");
-  CHECK(colors(obj.frame(red + "f 1 2 3\n" + kThree + "f 4 5 6\n")) == "1000 0 0, 600 600 600");
-  CHECK(colors(obj.frame("o a\n" + kThree + "f 1 2 3\no b\n" + red + "f 4 5 6\n")) == "600 600 600, 1000 0 0");
-  CHECK(colors(obj.frame(kThree + red + "f 4 5 6\nf 1 2 3\n")) == "1000 0 0, 600 600 600");
+  CHECK(colors(obj.frame(joined({kThree, "f 1 2 3\n", red, "f 4 5 6\n"}))) == "600 600 600, 1000 0 0");
+  CHECK(colors(obj.frame(joined({red, "f 1 2 3\n", kThree, "f 4 5 6\n"}))) == "1000 0 0, 600 600 600");
+  CHECK(colors(obj.frame(joined({"o a\n", kThree, "f 1 2 3\no b\n", red, "f 4 5 6\n"}))) == "600 600 600, 1000 0 0");
+  CHECK(colors(obj.frame(joined({kThree, red, "f 4 5 6\nf 1 2 3\n"}))) == "1000 0 0, 600 600 600");
   // One corner of three.
   const SceneFrame f = obj.frame("v 0 0 0\nv 1 0 0 0 1 0\nv 0 1 0\nf 1 2 3\n");
   CHECK(f.shading[f.triangles[0].shading[0]].color.y == Approx(0.6));
   CHECK(f.shading[f.triangles[0].shading[1]].color == glm::dvec3{0, 1, 0});
   // Times the material's.
   obj.add("m.mtl", "newmtl m\nKd 0.5 1 1\n");
-  CHECK(colors(obj.frame("mtllib m.mtl\nusemtl m\n" + kThree + red + "f 1 2 3\nf 4 5 6\n")) ==
+  CHECK(colors(obj.frame(joined({"mtllib m.mtl\nusemtl m\n", kThree, red, "f 1 2 3\nf 4 5 6\n"}))) ==
         "500 1000 1000, 500 0 0");
   CHECK(obj.notes(red + "f 1 2 3\n").empty());
   CHECK(obj.notes("v 0 0 0 1 1 1 0.5\nv 1 0 0 1 1 1 1\nv 0 1 0 1 1 1 1\nf 1 2 3\n") ==
@@ -189,9 +190,9 @@ TEST_CASE("objects are those of o and g; points, lines, curves and what is not k
     for (const std::string& name : scene.objects()) all += name + ";";
     return all;
   };
-  CHECK(objects("o first one\n" + kTriangle + "g part # 2\n" + kTriangle + "o last\n" + kTriangle) ==
+  CHECK(objects(joined({"o first one\n", kTriangle, "g part # 2\n", kTriangle, "o last\n", kTriangle})) ==
         "first one;part # 2;last;");
-  CHECK(objects("g a\n" + kTriangle + "g b\n" + kTriangle + "g a\n" + kTriangle) == "a;b;");
+  CHECK(objects(joined({"g a\n", kTriangle, "g b\n", kTriangle, "g a\n", kTriangle})) == "a;b;");
   CHECK(obj.notes(kTriangle + "p 1 2\nl 1 2 3\nf 1 2\n") == "4 points or lines are ignored\n");
   CHECK(obj.notes(kTriangle + "s 1\nf 1 2 3\ns off\nf 1 2 3\n") ==
         "1 face of a smoothing group has no normals, and no smooth shading\n");
@@ -201,7 +202,7 @@ TEST_CASE("objects are those of o and g; points, lines, curves and what is not k
         "2 words of t.obj are ignored: wobble (line 5), lod (line 6)\n");
   CHECK(obj.notes("# 1\n\n \t\n" + kTriangle + "vt 0 0\nvt 0 0 0\ns off\n").empty());
   CHECK(obj.refusal(kThree + "p 1 2 3\n") == "no faces");
-  CHECK(obj.refusal("\xFF\xFEv\0") == "its text is UTF-16, which is not read (UTF-8 is)");
+  CHECK(obj.refusal("\xFF\xFEv") == "its text is UTF-16, which is not read (UTF-8 is)");
 }
 
 TEST_CASE("a backslash joins the next line at the end of one, and neither in a comment nor before one") {

@@ -23,9 +23,7 @@ TEST_CASE("OFF: headers with and without the word, on one line or more, with com
   const PlainFiles off(".off");
   const std::string body = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
   for (const char* head : {"OFF\n3 1 0\n", "OFF 3 1 0\n", "3 1 0\n", "OFF\n3 1\n", "OFF # c\n# c\n\n  \n3 1 0 # c\n\n",
-                           "\xEF\xBB\xBF"
-                           "OFF\r\n3 1 0\r\n",
-                           "# c\nOFF\n3 1 0\n", "OFF\t3\t1\t0\n"}) {
+                           "\xEF\xBB\xBFOFF\r\n3 1 0\r\n", "# c\nOFF\n3 1 0\n", "OFF\t3\t1\t0\n"}) {
     CAPTURE(head);
     CHECK(off.frame(head + body).triangles.size() == 1);
     CHECK(off.notes(head + body).empty());

@@ -4,13 +4,22 @@
 #pragma once
 
 #include <cmath>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "files.hpp"
 #include "scene/space.hpp"
 
 namespace kage::test {
+
+/// One text behind the other.
+inline std::string joined(std::initializer_list<std::string_view> parts) {
+  std::string all;
+  for (const std::string_view part : parts) all += part;
+  return all;
+}
 
 /// A folder in which one file after the other is loaded.
 class PlainFiles {

@@ -70,7 +70,7 @@ std::string obj(const Mesh& m, Random& random) {
   }
   const auto n = static_cast<int>(m.places.size());
   for (const auto& f : m.faces) {
-    faces += "f";
+    faces += 'f';
     for (const std::uint32_t v : f) {
       if (below(random, 8) == 0) faces += " \\" + end;
       faces += blank(random) +
@@ -87,10 +87,10 @@ std::string off(const Mesh& m, Random& random) {
       fmt::format("OFF{}{} {} 0\n", below(random, 2) == 0 ? " " : "\n# c\n", m.places.size(), m.faces.size());
   for (const auto& p : m.places) text += place(random, p) + "\n";
   for (std::size_t i = 0; i < m.faces.size(); ++i) {
-    text += "3";
+    text += '3';
     for (const std::uint32_t v : m.faces[i]) text += blank(random) + std::to_string(v);
     for (const int c : m.colors[i]) text += blank(random) + std::to_string(c);
-    text += "\n";
+    text += '\n';
   }
   return text;
 }

@@ -9,6 +9,7 @@
 using namespace kage;
 using test::area;
 using test::colors;
+using test::joined;
 using test::PlainFiles;
 
 namespace {
@@ -57,8 +58,8 @@ TEST_CASE("PLY: every type for coordinates, lengths of lists and numbers in them
   for (const std::string& type : types)
     for (const std::string& of_list : kWhole) {
       std::string head = "element vertex 4\n";
-      for (const char* axis : {"x", "y", "z"}) head += "property " + type + " " + axis + "\n";
-      head += "element face 2\nproperty list " + of_list + " " + of_list + " vertex_index\n";
+      for (const char* axis : {"x", "y", "z"}) head += joined({"property ", type, " ", axis, "\n"});
+      head += joined({"element face 2\nproperty list ", of_list, " ", of_list, " vertex_index\n"});
       const std::vector<double> places{0, 0, 0, 100, 0, 0, 100, 50, 0, 0, 50, 7};
       const std::vector<double> lists{3, 0, 1, 2, 3, 0, 2, 3};
       for (const char* form : {"ascii", "binary_little_endian", "binary_big_endian"}) {
@@ -103,7 +104,7 @@ TEST_CASE("PLY: colours of vertices, of each type and name") {
   const PlainFiles ply(".ply");
   const auto of = [&ply](const std::string& type, const std::string& prefix, const std::string& color) {
     std::string head = "element vertex 3\n" + kXyz;
-    for (const char* c : {"red", "green", "blue"}) head += "property " + type + " " + prefix + c + "\n";
+    for (const char* c : {"red", "green", "blue"}) head += joined({"property ", type, " ", prefix, c, "\n"});
     return colors(ply.frame(ascii(head + "element face 1\n" + kList,
                                   "0 0 0 " + color + "\n1 0 0 " + color + "\n0 1 0 " + color + "\n3 0 1 2\n")));
   };
@@ -180,9 +181,9 @@ TEST_CASE("PLY: what is not drawn is told") {
 
 TEST_CASE("PLY: faces may come before their vertices, and may be of many corners") {
   const PlainFiles ply(".ply");
-  CHECK(ply.frame(ascii("element face 1\n" + kList + "element vertex 4\n" + kXyz, "4 0 1 3 2\n" + kFour))
+  CHECK(ply.frame(ascii(joined({"element face 1\n", kList, "element vertex 4\n", kXyz}), "4 0 1 3 2\n" + kFour))
             .triangles.size() == 2);
-  CHECK(area(ply.frame(ascii("element vertex 5\n" + kXyz + "element face 1\n" + kList,
+  CHECK(area(ply.frame(ascii(joined({"element vertex 5\n", kXyz, "element face 1\n", kList}),
                              "0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n5 0 1 2 3 4\n"))) == Approx(20));
 }
 
@@ -243,13 +244,13 @@ TEST_CASE("PLY: a binary file that is cut, or whose counts lie, is refused befor
   };
   const std::string places = test::bytes_of(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0});
   const std::string list = test::bytes_of(std::vector<std::uint32_t>{3, 0, 1, 2});
-  CHECK(ply.refusal(file("3", "1") + places + list) == "loaded");
+  CHECK(ply.refusal(joined({file("3", "1"), places, list})) == "loaded");
   const std::string whole = file("3", "1") + places + list;
   for (std::size_t cut = file("3", "1").size(); cut < whole.size(); ++cut)
     CHECK(ply.refusal(whole.substr(0, cut)) != "loaded");
-  CHECK(ply.refusal(file("4000000000", "1") + places + list) ==
+  CHECK(ply.refusal(joined({file("4000000000", "1"), places, list})) ==
         "4000000000 of element vertex do not fit into the 52 bytes left");
-  CHECK(ply.refusal(file("3", "4000000000") + places + list) ==
+  CHECK(ply.refusal(joined({file("3", "4000000000"), places, list})) ==
         "4000000000 of element face do not fit into the 16 bytes left");
   CHECK(ply.refusal(file("3", "1") + places + test::bytes_of(std::vector<std::uint32_t>{0xffffffff, 0, 1, 2})) ==
         "element face 0: a list of length 4294967295 is longer than what is left");
