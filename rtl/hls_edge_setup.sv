@@ -4,7 +4,7 @@
 //
 // Handshake: valid/ready on both sides. The whole pipeline stands while out_valid_o waits for out_ready_i, on
 //   which in_ready_o depends.
-// Latency: 20 clocks. Throughput: a result a clock. rst_ni low empties the pipeline.
+// Latency: 17 clocks. Throughput: a result a clock. rst_ni low empties the pipeline.
 // Cost: docs/hls.md has the cells of it.
 /* verilator lint_off UNUSEDSIGNAL */
 `default_nettype none
@@ -28,14 +28,14 @@ module hls_edge_setup (
     output logic [23:0] dy_o
 );
 
-  logic [19:0] valid;  // of the registers behind each stage
+  logic [16:0] valid;  // of the registers behind each stage
   logic advance;
-  assign out_valid_o = valid[19];
+  assign out_valid_o = valid[16];
   assign advance = out_ready_i || !out_valid_o;
   assign in_ready_o = advance;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) valid <= '0;
-    else if (advance) valid <= {valid[18:0], in_valid_i};
+    else if (advance) valid <= {valid[15:0], in_valid_i};
   end
 
   // stage 0
@@ -778,59 +778,11 @@ module hls_edge_setup (
     end
   end
 
-  // stage 17
-  logic [16:0] xor_376_s18;
-  logic [16:0] xor_377_s18;
-  logic [23:0] rest_s18;
-  logic [23:0] rest_step_s18;
-  logic [24:0] dy_s18;
-  always_ff @(posedge clk_i) begin
-    if (advance) begin
-      xor_376_s18 <= xor_376_s17;
-      xor_377_s18 <= xor_377_s17;
-      rest_s18 <= rest_s17;
-      rest_step_s18 <= rest_step_s17;
-      dy_s18 <= dy_s17;
-    end
-  end
-
-  // stage 18
-  logic [16:0] xor_376_s19;
-  logic [16:0] xor_377_s19;
-  logic [23:0] rest_s19;
-  logic [23:0] rest_step_s19;
-  logic [24:0] dy_s19;
-  always_ff @(posedge clk_i) begin
-    if (advance) begin
-      xor_376_s19 <= xor_376_s18;
-      xor_377_s19 <= xor_377_s18;
-      rest_s19 <= rest_s18;
-      rest_step_s19 <= rest_step_s18;
-      dy_s19 <= dy_s18;
-    end
-  end
-
-  // stage 19
-  logic [16:0] xor_376_s20;
-  logic [16:0] xor_377_s20;
-  logic [23:0] rest_s20;
-  logic [23:0] rest_step_s20;
-  logic [24:0] dy_s20;
-  always_ff @(posedge clk_i) begin
-    if (advance) begin
-      xor_376_s20 <= xor_376_s19;
-      xor_377_s20 <= xor_377_s19;
-      rest_s20 <= rest_s19;
-      rest_step_s20 <= rest_step_s19;
-      dy_s20 <= dy_s19;
-    end
-  end
-
-  assign x_o = xor_376_s20;
-  assign step_o = xor_377_s20;
-  assign rest_o = rest_s20;
-  assign rest_step_o = rest_step_s20;
-  assign dy_o = dy_s20[23:0];
+  assign x_o = xor_376_s17;
+  assign step_o = xor_377_s17;
+  assign rest_o = rest_s17;
+  assign rest_step_o = rest_step_s17;
+  assign dy_o = dy_s17[23:0];
 endmodule
 
 `default_nettype wire

@@ -3,6 +3,11 @@
 // kage_top in Verilog-2005, under the port names that other tools look for: aclk, aresetn, s_axis_tdata. Vivado's block
 // design, LiteX and cocotbext-axi know an interface by them, and Vivado by the attributes too; kage_top has _i and _o.
 //
+// GBR_ORDER 1: a pixel's bytes are green, blue, red from the lowest, as AMD's video cores have RGB (UG934); 0: red,
+// green, blue, as everywhere else in kage. Of a core with one channel it changes nothing.
+// TKEEP: there is none: every byte of a beat counts, and what follows a frame's last word in its last beat is not
+//   looked at.
+//
 // Handshake, clock and reset are kage_top's. Latency: none more. Cost: none.
 `default_nettype none
 
@@ -30,7 +35,8 @@ module kage_axi #(
     parameter LANES = 4,
     parameter MAX_WIDTH = 640,
     parameter BEAT_WORDS = 4,
-    parameter ACTIVE = 0
+    parameter ACTIVE = 0,
+    parameter GBR_ORDER = 0
 ) (
     (* X_INTERFACE_INFO = "xilinx.com:signal:clock:1.0 aclk CLK" *)
     (* X_INTERFACE_PARAMETER = "ASSOCIATED_BUSIF s_axis:m_axis:s_axil, ASSOCIATED_RESET aresetn" *)
@@ -102,6 +108,15 @@ module kage_axi #(
     output wire irq
 );
 
+  wire [CHANNELS*8-1:0] video;
+  generate
+    if (GBR_ORDER != 0 && CHANNELS == 3) begin : gen_gbr
+      assign m_axis_tdata = {video[7:0], video[23:16], video[15:8]};
+    end else begin : gen_rgb
+      assign m_axis_tdata = video;
+    end
+  endgenerate
+
   kage_top #(
       .X_BITS(X_BITS),
       .Z_BITS(Z_BITS),
@@ -134,8 +149,8 @@ module kage_axi #(
       .s_axis_tdata_i(s_axis_tdata),
       .s_axis_tlast_i(s_axis_tlast),
       .s_axis_tready_o(s_axis_tready),
+      .m_axis_tdata_o(video),
       .m_axis_tvalid_o(m_axis_tvalid),
-      .m_axis_tdata_o(m_axis_tdata),
       .m_axis_tuser_o(m_axis_tuser),
       .m_axis_tlast_o(m_axis_tlast),
       .m_axis_tready_i(m_axis_tready),

@@ -306,7 +306,8 @@ module kage_top #(
   end
   assign in_frame = reader_busy || front_busy || frame_open;
   assign frame_here = in_frame || lines_q != '0;
-  assign waiting_input = in_frame && hungry && !token_valid && !front_moving && s_axis_tready_o && !s_axis_tvalid_i;
+  // Unless front_moving, which registers is told apart.
+  assign waiting_input = in_frame && hungry && !token_valid && s_axis_tready_o && !s_axis_tvalid_i;
   assign waiting_output = m_axis_tvalid_o && !m_axis_tready_i;
   // Whatever moves is progress. So nothing but the ports can keep a frame waiting (assertion 1), and the watchdog bites
   // only if one of them does.
@@ -333,6 +334,7 @@ module kage_top #(
       .open_i          (frame_here),
       .draining_i      (draining),
       .waiting_input_i (waiting_input),
+      .coming_i        (front_moving),
       .waiting_output_i(waiting_output),
       .progress_i      (progress),
       .frame_end_i     (frame_end),

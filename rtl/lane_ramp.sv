@@ -7,10 +7,12 @@
 //   slopes that the bits of xl's place in its group select. Then a tree doubles the number of lanes per clock: left
 //   half the same, right half plus slope x half the lanes. A multiplier per lane would be
 //   the core's slowest path.
-// Control: the parent moves the set-up stages (set_en_i bit k lets stage k + 1 take what is before it) and the walker
-//   (load_i: take the set-up's result; step_i: one group further). The rest is a pipeline that always moves.
+// Control: the parent moves the first two set-up stages (set_en_i bit k lets stage k + 1 take what is before it), says
+//   when the second has something (put_i), and moves the walker (load_i: take the set-up's oldest result; step_i: one
+//   group further). The third is a queue of two, as the parent's own, so the walker moves no more of it than a pointer:
+//   put_i is acted on where there is room. The rest is a pipeline that always moves.
 // Latency: value_o belongs to the group the walker held $clog2(LANES) + 2 clocks ago. Throughput: a group a clock.
-// Cost: about 2 x LANES adders and 3 x LANES registers of BITS bits. Nothing is reset.
+// Cost: about 2 x LANES adders and 3 x LANES registers of BITS bits. The queue's pointers alone are reset.
 `default_nettype none
 `include "kage_illegal.svh"
 
@@ -25,8 +27,10 @@ module lane_ramp #(
     localparam int OffBits = LANES > 1 ? Levels : 1
 ) (
     input wire logic clk_i,
+    input wire logic rst_ni,
 
-    input wire logic [        2:0] set_en_i,
+    input wire logic [        1:0] set_en_i,
+    input wire logic               put_i,
     input wire logic [   BITS-1:0] start_i,
     input wire logic [   BITS-1:0] slope_i,
     input wire logic [OffBits-1:0] offset_i,  // of xl in its group
@@ -38,8 +42,7 @@ module lane_ramp #(
 
   // ---- set-up: start - offset * slope ------------------------------------------------------------------------------
   logic [BITS-1:0] start_q, slope_q, low_q, mid_q, high_q;
-  logic [BITS-1:0] part_q, rest_q, slope2_q;
-  logic [BITS-1:0] first_q, slope3_q;
+  logic [BITS-1:0] part_q, rest_q, slope2_q, first, first_slope;
   logic [4:0] off;
   assign off = LANES > 1 ? 5'(offset_i) : 5'd0;
 
@@ -56,11 +59,22 @@ module lane_ramp #(
       rest_q   <= mid_q + high_q;
       slope2_q <= slope_q;
     end
-    if (set_en_i[2]) begin
-      first_q  <= part_q - rest_q;
-      slope3_q <= slope2_q;
-    end
   end
+
+  logic unused_ready, set_valid;  // the parent's queue says the same
+  stream_fifo #(
+      .BITS (2 * BITS),
+      .DEPTH(2)
+  ) u_set (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (put_i),
+      .in_ready_o (unused_ready),
+      .in_data_i  ({part_q - rest_q, slope2_q}),
+      .out_valid_o(set_valid),
+      .out_ready_i(load_i),
+      .out_data_o ({first, first_slope})
+  );
 
   // ---- walker and lane tree ----------------------------------------------------------------------------------------
   // Level k holds 2^k values, that of pixel i * LANES / 2^k of the group at place i; levels lie behind each other, the
@@ -74,8 +88,8 @@ module lane_ramp #(
     tree_d = tree_q;
     slopes_d = slopes_q;
     if (load_i) begin
-      tree_d[0+:BITS]   = first_q;
-      slopes_d[0+:BITS] = slope3_q;
+      tree_d[0+:BITS]   = first;
+      slopes_d[0+:BITS] = first_slope;
     end else if (step_i) begin
       tree_d[0+:BITS] = tree_q[0+:BITS] + (slopes_q[0+:BITS] << Levels);
     end
@@ -125,10 +139,27 @@ module lane_ramp #(
 
   assign value_o = value_q;
 
+  logic unused_set;
+  assign unused_set = set_valid;
+
   // ---- checks ------------------------------------------------------------------------------------------------------
   if (FRAC < 0 || IntBits < OUT_BITS + 1) begin : gen_bad_bits
     `KAGE_ILLEGAL("BITS must hold FRAC fraction bits, OUT_BITS and a sign")
   end
+
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  logic begun_q = 1'b0;  // there has been a clock
+  always @(posedge clk_i) begin
+    begun_q <= 1'b1;
+    if (rst_ni) begin
+      // 1. The walker takes what has been set up, and does not go on in the same clock.
+      assert (!load_i || (set_valid && !step_i));
+      // 2. No value is less than the least and more than the greatest.
+      assert (!begun_q || (under_q & over_q) == '0);
+    end
+  end
+`endif
 
 endmodule
 

@@ -47,8 +47,12 @@ module pixel_banked #(
   // What stays unchanged: {leaves, tree, kind, count, weight, colour, first group, last group, first lane, last lane}.
   localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
   localparam int SetBits = 2 + KindBits + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
-  logic [SetBits-1:0] set_d, set1_q, set2_q, set3_q;
-  logic [2:0] set_valid_q, set_en;
+  // The third stage is a queue of two, and each lane_ramp has one of its own that moves with it: the walker, whose end
+  // of a span is known late, moves pointers, and the enables of all that lies ahead of it come from the queue's
+  // registers.
+  logic [SetBits-1:0] set_d, set1_q, set2_q, set3;
+  logic [1:0] set_valid_q, set_en;
+  logic set3_room, set3_valid;
   logic [  X_BITS-1:0] x_last;
   logic [FlatBits-1:0] flat;
   logic [AddrBits-1:0] group_first, group_last;
@@ -77,9 +81,8 @@ module pixel_banked #(
     lane_first,
     lane_last
   };
-  assign set_en[2] = !set_valid_q[2] || take3;
-  assign set_en[1] = set_valid_q[2:1] != 2'b11 || take3;
-  assign set_en[0] = set_valid_q != 3'b111 || take3;
+  assign set_en[1] = !set_valid_q[1] || set3_room;
+  assign set_en[0] = set_valid_q != 2'b11 || set3_room;
   assign cmd_ready_o = set_en[0];
 
   always_ff @(posedge clk_i) begin
@@ -88,12 +91,24 @@ module pixel_banked #(
     end else begin
       if (set_en[0]) set_valid_q[0] <= cmd_valid_i;
       if (set_en[1]) set_valid_q[1] <= set_valid_q[0];
-      if (set_en[2]) set_valid_q[2] <= set_valid_q[1];
     end
     if (set_en[0]) set1_q <= set_d;
     if (set_en[1]) set2_q <= set1_q;
-    if (set_en[2]) set3_q <= set2_q;
   end
+
+  stream_fifo #(
+      .BITS (SetBits),
+      .DEPTH(2)
+  ) u_set (
+      .clk_i,
+      .rst_ni,
+      .in_valid_i (set_valid_q[1]),
+      .in_ready_o (set3_room),
+      .in_data_i  (set2_q),
+      .out_valid_o(set3_valid),
+      .out_ready_i(take3),
+      .out_data_o (set3)
+  );
 
   // ---- walker, stage 0 ---------------------------------------------------------------------------------------------
   logic [ KindBits-1:0] next_kind;
@@ -114,7 +129,7 @@ module pixel_banked #(
     next_end,
     next_lane_first,
     next_lane_last
-  } = set3_q;
+  } = set3;
 
   logic walk_valid_q, walk_first_q, walk_at_end_q, walk_leaves_q, step;
   logic [ KindBits-1:0] walk_kind_q;
@@ -127,7 +142,7 @@ module pixel_banked #(
 
   assign walk_eol = walk_kind_q == KindEol;
   assign step = walk_valid_q && !walk_at_end_q;
-  assign take3 = set_valid_q[2] && !step && (!next_leaves || exit_free_i) && (UNITS == 0 || !next_tree || tree_here);
+  assign take3 = set3_valid && !step && (!next_leaves || exit_free_i) && (UNITS == 0 || !next_tree || tree_here);
   assign exit_take_o = take3 && next_leaves;
 
   always_ff @(posedge clk_i) begin
@@ -182,7 +197,9 @@ module pixel_banked #(
       .OUT_BITS(Z_BITS)
   ) u_depth (
       .clk_i,
+      .rst_ni,
       .set_en_i(set_en),
+      .put_i   (set_valid_q[1]),
       .start_i (cmd.z),
       .slope_i (cmd.dz),
       .offset_i(lane_first),
@@ -206,7 +223,9 @@ module pixel_banked #(
           .OUT_BITS(8)
       ) u_color (
           .clk_i,
+          .rst_ni,
           .set_en_i(set_en),
+          .put_i   (set_valid_q[1]),
           .start_i (cmd.color[c*RampBits+:RampBits]),
           .slope_i (cmd.dcolor[c*RampBits+:RampBits]),
           .offset_i(lane_first),
@@ -324,7 +343,6 @@ module pixel_banked #(
   logic [WordBits-1:0] ram_data, stored_q, recent_q, settled, word_q, word, next, done_q, done, done2_q;
   logic [LANES-1:0] blends, word_blends_q, done_blends_q;
   logic [LANES*RgbBits-1:0] blended, blended_q;
-  logic [LANES*Z_BITS-1:0] old_z;
   logic [AddrBits-1:0] done_addr_q;
   logic done_valid_q;
   // The group computed 1 .. 4 clocks before is the same; of 1, 2 and 3 the lanes that it changed, which also keeps the
@@ -352,9 +370,6 @@ module pixel_banked #(
     for (int l = 0; l < LANES; l++) begin
       if (same2_q[l]) settled[l*PixelBits+:PixelBits] = done[l*PixelBits+:PixelBits];
       else if (use_recent_q[l]) settled[l*PixelBits+:PixelBits] = recent_q[l*PixelBits+:PixelBits];
-      // The depth without what the group right before does: that group's pixel has all before it.
-      old_z[l*Z_BITS+:Z_BITS] = settled[l*PixelBits+PixelZAt+:Z_BITS];
-      if (same1_q[l]) old_z[l*Z_BITS+:Z_BITS] = word[l*PixelBits+PixelZAt+:Z_BITS];
     end
   end
 
@@ -409,7 +424,7 @@ module pixel_banked #(
       now_added[l*AddedBits+:AddedBits] <= pixel_added(ahead_kind, 8'(ahead_weight), ahead_color[l*RgbBits+:RgbBits]);
       moved_q[l] <= same1_q[l] && ((now_opaque_q && in_front[l]) || now_kind == KindEol);
       before_new_q[l] <= now_kind == KindEol || pixel_in_front(ahead_z[l*Z_BITS+:Z_BITS], now_z[l*Z_BITS+:Z_BITS]);
-      before_old_q[l] <= pixel_in_front(ahead_z[l*Z_BITS+:Z_BITS], old_z[l*Z_BITS+:Z_BITS]);
+      before_old_q[l] <= pixel_in_front(ahead_z[l*Z_BITS+:Z_BITS], settled[l*PixelBits+PixelZAt+:Z_BITS]);
     end
   end
 
@@ -459,8 +474,8 @@ module pixel_banked #(
   end
 
   // Something is on its way: read, computed, written or leaving.
-  assign moving_o = (set_valid_q & {take3, set_en[2:1]}) != '0 || valid != '0 || done_valid_q || exit_valid_o ||
-      tree_moving;
+  assign moving_o = (set_valid_q & {set3_room, set_en[1]}) != '0 || take3 || valid != '0 || done_valid_q ||
+      exit_valid_o || tree_moving;
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
@@ -471,6 +486,12 @@ module pixel_banked #(
       assert (!walk_valid_q || walk_at_end_q == (walk_group_q == walk_end_q));
       // 2. A line's pass never starts without a place for its pixels.
       assert (!exit_take_o || exit_free_i);
+      // 3. Where the group right before is the same, it has found what that pixel has without it: so that one depth
+      //    will do for before_old_q, whoever the group before is.
+      for (int l = 0; l < LANES; l++) begin
+        assert (!(valid[Last-1] && same1_q[l]) ||
+                settled[l*PixelBits+PixelZAt+:Z_BITS] == word[l*PixelBits+PixelZAt+:Z_BITS]);
+      end
     end
   end
 `endif

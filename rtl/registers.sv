@@ -35,7 +35,8 @@ module registers #(
     // from the core
     input wire logic                  open_i,            // a frame is open, or pixels of one have not left
     input wire logic                  draining_i,
-    input wire logic                  waiting_input_i,
+    input wire logic                  waiting_input_i,   // unless coming_i
+    input wire logic                  coming_i,          // something in the front end comes to what waits for input
     input wire logic                  waiting_output_i,
     input wire logic [     PARTS-1:0] progress_i,        // which parts of the core something moves in
     input wire logic                  frame_end_i,
@@ -49,18 +50,18 @@ module registers #(
   `include "generated/kage_buses.svh"
 
   // ---- what the core says ------------------------------------------------------------------------------------------
-  logic open_q, draining_q, waiting_input_q, waiting_output_q, frame_end_q, error_valid_q, behind_valid_q;
-  logic progress;
+  logic open_q, draining_q, asking_q, coming_q, waiting_output_q, frame_end_q, error_valid_q, behind_valid_q;
+  logic progress, waiting_input;
   logic [PARTS-1:0] progress_q;
   error_t error_q;
   behind_t behind_q;
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
-      {open_q, draining_q, waiting_input_q, waiting_output_q}  <= '0;
-      {progress_q, frame_end_q, error_valid_q, behind_valid_q} <= '0;
+      {open_q, draining_q, asking_q, coming_q, waiting_output_q} <= '0;
+      {progress_q, frame_end_q, error_valid_q, behind_valid_q}   <= '0;
     end else begin
-      {open_q, draining_q, waiting_input_q, waiting_output_q} <= {
-        open_i, draining_i, waiting_input_i, waiting_output_i
+      {open_q, draining_q, asking_q, coming_q, waiting_output_q} <= {
+        open_i, draining_i, waiting_input_i, coming_i, waiting_output_i
       };
       {progress_q, frame_end_q, error_valid_q, behind_valid_q} <= {
         progress_i, frame_end_i, error_valid_i, behind_valid_i
@@ -70,6 +71,7 @@ module registers #(
     behind_q <= behind_i;
   end
   assign progress = progress_q != '0;
+  assign waiting_input = asking_q && !coming_q;
 
   localparam logic [1:0] RespOkay = 2'b00;
   localparam logic [1:0] RespSlverr = 2'b10;
@@ -126,7 +128,7 @@ module registers #(
   assign bite = limited_q && open_q && !progress && !limit_new_q && !bitten_q &&
       (limit_one_q || (at_limit_q && !fresh_q));
   assign anew = write_limit || limit_new_q || progress || !open_q;
-  assign unit_waited = waiting_input_q && behind_valid_q;
+  assign unit_waited = waiting_input && behind_valid_q;
   always_comb begin
     irq_set.frame_end = frame_end_q;
     irq_set.error = error_valid_q;
@@ -179,12 +181,12 @@ module registers #(
         stall_q.behind <= unit_waited;
         stall_q.line <= behind_q.line;
         stall_q.on_output <= waiting_output_q;
-        stall_q.on_input <= waiting_input_q;
+        stall_q.on_input <= waiting_input;
         stall_q.unit <= unit_waited ? behind_q.unit : '0;
       end
       if (frame_end_q) frames_q <= frames_q + 32'd1;
       cycles_q <= cycles_q + 32'd1;
-      if (waiting_input_q) starved_q <= starved_q + 32'd1;
+      if (waiting_input) starved_q <= starved_q + 32'd1;
       if (waiting_output_q) blocked_q <= blocked_q + 32'd1;
     end
     before_last_q <= limit_q - 32'd2;
@@ -199,6 +201,7 @@ module registers #(
   reg_status_t status;
   reg_error_t error;
   reg_tree_t tree;
+  reg_capability_t capability;
   always_comb begin
     shape = '0;
     shape.arrangement = 1'(ARRANGEMENT);
@@ -207,8 +210,12 @@ module registers #(
     shape.max_width = RegShapeMaxWidthBits'(MAX_WIDTH);
     status.open = open_q;
     status.draining = draining_q;
-    status.waiting_input = waiting_input_q;
+    status.waiting_input = waiting_input;
     status.waiting_output = waiting_output_q;
+    capability = '0;
+    capability.active = RegCapabilityActiveBits'(ACTIVE);
+    capability.spans = 1'b1;
+    capability.polygons = ACTIVE > 0;
     error = '0;
     error.code = error_code_q;
     error.line = error_line_q;
@@ -240,6 +247,7 @@ module registers #(
       RegErrorUnit: value = 32'(error_unit_q);
       RegTree: value = tree;
       RegStall: value = stall_q;
+      RegCapability: value = 32'(capability);
       default: value = '0;
     endcase
   end

@@ -24,7 +24,9 @@ enum kage_result kage_open(struct kage_device* device, const struct kage_bus* bu
   device->bus = *bus;
   device->watchdog = watchdog;
   if (core_read(device, KAGE_REG_ID) != KAGE_ID_VALUE) return KAGE_NO_CORE;
-  if (core_read(device, KAGE_REG_VERSION) != version) return KAGE_WRONG_VERSION;
+  const bool polygons = version == KAGE_VERSION_POLYGONS;
+  if (core_read(device, KAGE_REG_VERSION) != (polygons ? KAGE_VERSION_SPANS : version)) return KAGE_WRONG_VERSION;
+  if (polygons && !(core_read(device, KAGE_REG_CAPABILITY) & KAGE_CAPABILITY_POLYGONS_MASK)) return KAGE_NO_FRONT_END;
   if (core_read(device, KAGE_REG_PARAM_HASH) != param_hash) return KAGE_WRONG_PARAMETERS;
   const uint32_t beat_words = KAGE_FIELD(core_read(device, KAGE_REG_SHAPE), KAGE_SHAPE_BEAT_WORDS);
   if (dma_read(device, KAGE_DMA_BEAT_BYTES) != 4 * beat_words) return KAGE_WRONG_SHAPE;
@@ -152,6 +154,8 @@ const char* kage_result_text(enum kage_result result) {
       return "no core at this address";
     case KAGE_WRONG_VERSION:
       return "the core takes streams of another version";
+    case KAGE_NO_FRONT_END:
+      return "the frames are at the polygon level, and the core has no front end";
     case KAGE_WRONG_PARAMETERS:
       return "the frames are for a core with other parameters";
     case KAGE_WRONG_SHAPE:

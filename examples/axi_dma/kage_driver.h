@@ -42,6 +42,7 @@ enum kage_result {
   KAGE_OK,
   KAGE_NO_CORE,          /* ID is not kage's: a wrong address, or clock or reset is missing */
   KAGE_WRONG_VERSION,    /* the core takes streams of another version */
+  KAGE_NO_FRONT_END,     /* the frames are at the polygon level, and the core takes spans alone */
   KAGE_WRONG_PARAMETERS, /* the frames are for a core with other parameters */
   KAGE_WRONG_SHAPE,      /* the DMA's beats are not the core's */
   KAGE_BUSY,             /* a frame is under way */

@@ -330,7 +330,9 @@ int main(int argc, char** argv) {
   std::memcpy(header.data(), beats.data(), sizeof header);
   const std::uint32_t version = header[0] & 0xFFFF, hash = header[2];
   kage_device device{};
-  check(kage_open(&device, &bus, version + 1, hash, kWatchdog) == KAGE_WRONG_VERSION, "another version is opened");
+  check(kage_open(&device, &bus, version + 2, hash, kWatchdog) == KAGE_WRONG_VERSION, "another version is opened");
+  check(kage_open(&device, &bus, KAGE_VERSION_POLYGONS, hash, kWatchdog) == KAGE_NO_FRONT_END,
+        "frames of polygons are opened on a core without a front end");
   check(kage_open(&device, &bus, version, ~hash, kWatchdog) == KAGE_WRONG_PARAMETERS,
         "a core with other parameters is opened");
   const kage_result opened = kage_open(&device, &bus, version, hash, kWatchdog);

@@ -290,6 +290,10 @@ async def register_accesses(dut):
     shape = await bench.read("SHAPE")
     assert field("SHAPE", "MAX_WIDTH", shape) == config.MAX_WIDTH
     assert field("SHAPE", "BEAT_WORDS", shape) == config.BEAT_WORDS
+    capability = await bench.read("CAPABILITY")
+    assert field("CAPABILITY", "SPANS", capability) == 1
+    assert field("CAPABILITY", "ACTIVE", capability) == config.ACTIVE
+    assert field("CAPABILITY", "POLYGONS", capability) == (config.ACTIVE > 0)
 
     answers = bench.registers.write_if.b_channel
 

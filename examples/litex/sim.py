@@ -155,6 +155,7 @@ def script_of(pack, config, places, csr):
         "VERSION": VERSION,
         "PARAM_HASH": config.hash(),
         "SHAPE": shape,
+        "CAPABILITY": field("CAPABILITY", "SPANS", 1),
     }.items():
         s.read(s.core(name), name, value)
     s.read(KAGE_AT + 4 * len(REGISTERS), "behind the last register", None, refused=1)

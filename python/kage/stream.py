@@ -291,6 +291,7 @@ REGISTERS = {
     "ERROR_UNIT": (0x40, "ro", "unit of the newest error, if it is SEGMENT, UNIT_LONG or UNIT_SHORT"),
     "TREE": (0x44, "ro", "the unit that input is waited for; all 0 if BEHIND is: bits 5-0 UNIT: the lowest unit that has least of the frame; bits 30-16 LINE: its line; bit 31 BEHIND: input is waited for while a unit has less of the frame than another"),
     "STALL": (0x48, "ro", "at the watchdog's last bite: bits 5-0 UNIT: as in TREE; bit 8 ON_INPUT: input was waited for; bit 9 ON_OUTPUT: output was waited for; bits 30-16 LINE: as in TREE; without a unit the line at hand; bit 31 BEHIND: as in TREE"),
+    "CAPABILITY": (0x4C, "ro", "the levels of frames that the core takes: bits 12-0 ACTIVE; bit 16 SPANS: frames at the span level, which every core takes; bit 17 POLYGONS: frames at the polygon level: the core has a front end"),
 }
 
 # Fields of a register: lowest bit, bits.
@@ -302,6 +303,7 @@ REGISTER_FIELDS = {
     "ERROR": {"CODE": (0, 4), "LINE": (16, 16)},
     "TREE": {"UNIT": (0, 6), "LINE": (16, 15), "BEHIND": (31, 1)},
     "STALL": {"UNIT": (0, 6), "ON_INPUT": (8, 1), "ON_OUTPUT": (9, 1), "LINE": (16, 15), "BEHIND": (31, 1)},
+    "CAPABILITY": {"ACTIVE": (0, 13), "SPANS": (16, 1), "POLYGONS": (17, 1)},
 }
 
 

@@ -143,6 +143,8 @@ def registers_h(defs):
         if "value" in r:
             o.append(f"#define KAGE_{r['name']}_VALUE 0x{r['value']:08X}u /**< what {r['name']} always is */")
     o += [
+        f"#define KAGE_VERSION_SPANS {defs.d['version']}u /**< in a header at the span level: what VERSION always is */",
+        f"#define KAGE_VERSION_POLYGONS {defs.d['polygon_version']}u /**< in a header at the polygon level */",
         "",
         "/** A field of a register's value: KAGE_FIELD(value, KAGE_ERROR_CODE). */",
         "#define KAGE_FIELD(value, field) (((value) & field##_MASK) >> field##_SHIFT)",

@@ -54,6 +54,9 @@ class Checker : RegisterPort {
                KAGE_FIELD_IS(KAGE_SHAPE_BEAT_WORDS, static_cast<std::uint32_t>(c.beat_words)) |
                KAGE_FIELD_IS(KAGE_SHAPE_LANES, static_cast<std::uint32_t>(c.lanes)) |
                KAGE_FIELD_IS(KAGE_SHAPE_MAX_WIDTH, static_cast<std::uint32_t>(c.max_width)));
+    expect("CAPABILITY", KAGE_REG_CAPABILITY,
+           KAGE_CAPABILITY_SPANS_MASK | (c.active > 0 ? KAGE_CAPABILITY_POLYGONS_MASK : 0U) |
+               KAGE_FIELD_IS(KAGE_CAPABILITY_ACTIVE, static_cast<std::uint32_t>(c.active)));
   }
 
   // What a reset leaves in registers that change, of a core that stands still; CYCLES counts already.

@@ -8,6 +8,7 @@
 `default_nettype none
 
 module kage_axi_tb #(
+    parameter int GBR_ORDER = 0,
     `include "generated/kage_pixel_params.svh"
     `include "generated/kage_widths.svh"
     `include "generated/kage_impl_params.svh"
@@ -20,6 +21,7 @@ module kage_axi_tb #(
   localparam int Words = HeaderWords + Lines * EolWords + EndWords;
   localparam int Beats = (Words + BEAT_WORDS - 1) / BEAT_WORDS;
   localparam logic [31:0] Background = 32'h00c0a080;
+  localparam logic [31:0] Shown = GBR_ORDER > 0 && CHANNELS == 3 ? 32'h0080c0a0 : Background;  // red lowest, or green
 
   logic clk = 1'b0;
   logic rst_n = 1'b0;
@@ -34,6 +36,7 @@ module kage_axi_tb #(
   logic [1:0] rresp, bresp;
 
   kage_axi #(
+      .GBR_ORDER(GBR_ORDER),
       `include "generated/kage_impl_param_map.svh"
       `include "generated/kage_pixel_param_map.svh"
   ) dut (
@@ -165,7 +168,7 @@ module kage_axi_tb #(
   integer pixels = 0;
   always @(posedge clk) begin
     if (rst_n && m_valid !== 1'b0 && m_ready) begin
-      if (m_data !== Background[RgbBits-1:0]) fail("a pixel is not the background");
+      if (m_data !== Shown[RgbBits-1:0]) fail("a pixel is not the background");
       if (m_user !== (pixels == 0)) fail("TUSER is not on the first pixel, or on another");
       if (m_last !== (pixels % Width == Width - 1)) fail("TLAST is not on a line's last pixel, or on another");
       if (pixels == Lines * Width) fail("more pixels come than the frame has");

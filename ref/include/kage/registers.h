@@ -26,8 +26,11 @@
 #define KAGE_REG_ERROR_UNIT 0x40u /**< ro: unit of the newest error, if it is SEGMENT, UNIT_LONG or UNIT_SHORT */
 #define KAGE_REG_TREE 0x44u /**< ro: the unit that input is waited for; all 0 if BEHIND is */
 #define KAGE_REG_STALL 0x48u /**< ro: at the watchdog's last bite */
-#define KAGE_REG_LAST KAGE_REG_STALL /**< behind it there is none */
+#define KAGE_REG_CAPABILITY 0x4Cu /**< ro: the levels of frames that the core takes */
+#define KAGE_REG_LAST KAGE_REG_CAPABILITY /**< behind it there is none */
 #define KAGE_ID_VALUE 0x4B414745u /**< what ID always is */
+#define KAGE_VERSION_SPANS 1u /**< in a header at the span level: what VERSION always is */
+#define KAGE_VERSION_POLYGONS 2u /**< in a header at the polygon level */
 
 /** A field of a register's value: KAGE_FIELD(value, KAGE_ERROR_CODE). */
 #define KAGE_FIELD(value, field) (((value) & field##_MASK) >> field##_SHIFT)
@@ -82,6 +85,12 @@
 #define KAGE_STALL_LINE_MASK 0x7FFF0000u /**< its bits */
 #define KAGE_STALL_BEHIND_SHIFT 31u /**< STALL: as in TREE */
 #define KAGE_STALL_BEHIND_MASK 0x80000000u /**< its bits */
+#define KAGE_CAPABILITY_ACTIVE_SHIFT 0u /**< CAPABILITY: the parameter */
+#define KAGE_CAPABILITY_ACTIVE_MASK 0x00001FFFu /**< its bits */
+#define KAGE_CAPABILITY_SPANS_SHIFT 16u /**< CAPABILITY: frames at the span level, which every core takes */
+#define KAGE_CAPABILITY_SPANS_MASK 0x00010000u /**< its bits */
+#define KAGE_CAPABILITY_POLYGONS_SHIFT 17u /**< CAPABILITY: frames at the polygon level: the core has a front end */
+#define KAGE_CAPABILITY_POLYGONS_MASK 0x00020000u /**< its bits */
 
 #define KAGE_ERR_NONE 0u /**< no error */
 #define KAGE_ERR_HEADER 1u /**< magic or version is not this core's: version 2, the polygon level, needs a front end (ACTIVE) */

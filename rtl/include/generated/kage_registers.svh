@@ -21,7 +21,8 @@ localparam logic [7:0] RegBlocked = 8'h3c;  // ro
 localparam logic [7:0] RegErrorUnit = 8'h40;  // ro
 localparam logic [7:0] RegTree = 8'h44;  // ro
 localparam logic [7:0] RegStall = 8'h48;  // ro
-localparam logic [7:0] RegLast = RegStall;
+localparam logic [7:0] RegCapability = 8'h4c;  // ro
+localparam logic [7:0] RegLast = RegCapability;
 localparam logic [31:0] IdValue = 32'h4b414745;
 localparam int RegShapeBits = 32;  // up to its highest field
 localparam int RegShapeMaxWidthBits = 16;
@@ -39,6 +40,8 @@ localparam int RegTreeLineBits = 15;
 localparam int RegStallBits = 32;  // up to its highest field
 localparam int RegStallUnitBits = 6;
 localparam int RegStallLineBits = 15;
+localparam int RegCapabilityBits = 18;  // up to its highest field
+localparam int RegCapabilityActiveBits = 13;
 /* verilator lint_on UNUSEDPARAM */
 
 typedef struct packed {
@@ -90,3 +93,10 @@ typedef struct packed {
   logic [1:0] gap_7;
   logic [5:0] unit;
 } reg_stall_t;
+
+typedef struct packed {
+  logic polygons;
+  logic spans;
+  logic [2:0] gap_15;
+  logic [12:0] active;
+} reg_capability_t;

@@ -39,6 +39,7 @@ module registers_proof #(
     input wire logic        open_i,
     input wire logic        draining_i,
     input wire logic        waiting_input_i,
+    input wire logic        coming_i,
     input wire logic        waiting_output_i,
     input wire logic        progress_i,
     input wire logic        frame_end_i,
@@ -94,6 +95,7 @@ module registers_proof #(
       .open_i,
       .draining_i,
       .waiting_input_i,
+      .coming_i,
       .waiting_output_i,
       .progress_i,
       .frame_end_i,
@@ -155,7 +157,8 @@ module registers_proof #(
     logic [5:0] error_unit, behind_unit;
     logic [14:0] behind_line;
     always_ff @(posedge clk_i) begin
-      {open, draining, waiting_input, waiting_output} <= {open_i, draining_i, waiting_input_i, waiting_output_i};
+      {open, draining, waiting_output} <= {open_i, draining_i, waiting_output_i};
+      waiting_input <= waiting_input_i && !coming_i;
       {progress, frame_end, error, behind} <= {progress_i, frame_end_i, error_i, behind_i};
       {error_code, error_frame, error_line} <= {error_code_i, error_frame_i, error_line_i};
       {error_token, error_unit} <= {error_token_i, error_unit_i};
@@ -273,6 +276,7 @@ module registers_proof #(
         RegErrorUnit: value = 32'(unit_q);
         RegTree: value = tree;
         RegStall: value = stall_q;
+        RegCapability: value = 32'h00010000;  // the proof's core has no front end
         default: value = '0;
       endcase
     end

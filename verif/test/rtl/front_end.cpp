@@ -353,7 +353,7 @@ TEST_CASE("front_end's latencies are those of its contract", "[front_end]") {
   CHECK(r.out[0].clock - r.in[0].clock == 12);
   const auto edges = std::ranges::find_if(r.in, [](const Timed& t) { return t.kind == Kind::EDGE; });
   REQUIRE(std::next(edges)->kind == Kind::EDGE);
-  CHECK(clock_of(r.out, Kind::OP) - std::next(edges)->clock == 31);
+  CHECK(clock_of(r.out, Kind::OP) - std::next(edges)->clock == 28);
 }
 
 TEST_CASE("a polygon costs front_end a clock a line", "[front_end]") {

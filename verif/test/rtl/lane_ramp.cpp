@@ -62,13 +62,14 @@ class Ramp {
 
   Span drive() {
     step_ = walker_.valid && dice_.percent(40);
-    load_ = full_[2] && !step_ && !dice_.percent(pause_);
-    enabled_[2] = !full_[2] || load_;
-    enabled_[1] = !full_[1] || enabled_[2];
+    load_ = !queue_.empty() && !step_ && !dice_.percent(pause_);
+    room_ = queue_.size() < 2;
+    enabled_[1] = !full_[1] || room_;
     enabled_[0] = !full_[0] || enabled_[1];
     offer_ = dice_.percent(80);
     const Span fresh = random_span();
-    top_->set_en_i = static_cast<CData>(enabled_[0] | enabled_[1] << 1 | enabled_[2] << 2);
+    top_->set_en_i = static_cast<CData>(enabled_[0] | enabled_[1] << 1);
+    top_->put_i = full_[1] ? 1 : 0;
     top_->load_i = load_ ? 1 : 0;
     top_->step_i = step_ ? 1 : 0;
     put(top_->start_i, fresh.start);
@@ -79,14 +80,16 @@ class Ramp {
 
   /// What the stages and the walker hold after this clock.
   void move(const Span& fresh) {
-    if (load_)
-      walker_ = {true, staged_[2], 0};
-    else if (step_)
+    if (load_) {
+      walker_ = {true, queue_.front(), 0};
+      queue_.pop_front();
+    } else if (step_) {
       ++walker_.group;
-    for (std::size_t k = 2; k > 0; --k) {
-      if (!enabled_[k]) continue;
-      staged_[k] = staged_[k - 1];
-      full_[k] = full_[k - 1];
+    }
+    if (full_[1] && room_) queue_.push_back(staged_[1]);
+    if (enabled_[1]) {
+      staged_[1] = staged_[0];
+      full_[1] = full_[0];
     }
     if (enabled_[0]) {
       staged_[0] = fresh;
@@ -112,11 +115,12 @@ class Ramp {
   Bench<Model> top_;
   int pause_;
   std::deque<Held> history_;       // newest first
-  std::array<Span, 3> staged_{};   // in each stage of the set-up
-  std::array<bool, 3> full_{};     // whether it has one
-  std::array<bool, 3> enabled_{};  // whether it takes the one before it, this clock
+  std::array<Span, 2> staged_{};   // in each stage of the set-up but the last
+  std::array<bool, 2> full_{};     // whether it has one
+  std::array<bool, 2> enabled_{};  // whether it takes the one before it, this clock
+  std::deque<Span> queue_;         // in the last stage
   Held walker_{false, {}, 0};
-  bool step_ = false, load_ = false, offer_ = false;  // this clock
+  bool step_ = false, load_ = false, room_ = false, offer_ = false;  // this clock
 };
 
 template <class Model>

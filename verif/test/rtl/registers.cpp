@@ -24,7 +24,7 @@ class Axil {
     stall_ = stall_percent(dice);
   }
   void quiet() {
-    top->open_i = top->draining_i = top->waiting_input_i = top->waiting_output_i = 0;
+    top->open_i = top->draining_i = top->waiting_input_i = top->coming_i = top->waiting_output_i = 0;
     top->progress_i = top->frame_end_i = top->error_valid_i = top->behind_valid_i = 0;
     put(top->error_i, kError.unit, 0);
     behind(0, 0);
@@ -122,6 +122,7 @@ TEST_CASE("Constants and values after reset", "[registers]") {
     CHECK(a.read(KAGE_REG_SHAPE) ==
           (KAGE_FIELD_IS(KAGE_SHAPE_MAX_WIDTH, 640U) | KAGE_FIELD_IS(KAGE_SHAPE_LANES, 4U) |
            KAGE_FIELD_IS(KAGE_SHAPE_BEAT_WORDS, 4U) | KAGE_FIELD_IS(KAGE_SHAPE_ARRANGEMENT, 1U)));
+    CHECK(a.read(KAGE_REG_CAPABILITY) == KAGE_CAPABILITY_SPANS_MASK);
     for (const std::uint32_t r :
          {KAGE_REG_CONTROL, KAGE_REG_IRQ, KAGE_REG_WATCHDOG, KAGE_REG_STATUS, KAGE_REG_ERROR, KAGE_REG_ERROR_FRAME,
           KAGE_REG_ERROR_TOKEN, KAGE_REG_ERRORS, KAGE_REG_FRAMES, KAGE_REG_STARVED, KAGE_REG_BLOCKED,
@@ -189,6 +190,10 @@ TEST_CASE("Counters and status", "[registers]") {
     a.quiet();
     a.top->waiting_output_i = 1;
     for (int i = 0; i < 7; ++i) a.clock();
+    a.quiet();
+    a.top->waiting_input_i = a.top->coming_i = 1;  // nothing is waited for while something comes
+    for (int i = 0; i < 3; ++i) a.clock();
+    CHECK(a.read(KAGE_REG_STATUS) == 0);
     a.quiet();
     CHECK(a.read(KAGE_REG_STARVED) == 5);
     CHECK(a.read(KAGE_REG_BLOCKED) == 7);

@@ -16,7 +16,7 @@ run() {
   timeout 60 vvp tb.vvp >vvp.log 2>&1
 }
 bad=0
-for sets in "MAX_WIDTH=24" "BEAT_WORDS=1 MAX_WIDTH=8 LANES=1 CHANNELS=1" "ARRANGEMENT=0 MAX_WIDTH=16 SMOOTH=1"; do
+for sets in "MAX_WIDTH=24" "BEAT_WORDS=1 MAX_WIDTH=8 LANES=1 CHANNELS=1" "ARRANGEMENT=0 MAX_WIDTH=16 SMOOTH=1" "GBR_ORDER=1 MAX_WIDTH=8" "GBR_ORDER=1 CHANNELS=1 MAX_WIDTH=8"; do
   # shellcheck disable=SC2086 # a word a parameter
   if ! run $sets || ! grep -q '^kage_axi_tb: passed: ' vvp.log; then echo "$sets: not passed"; tail -3 vvp.log; bad=1; fi
 done
@@ -31,4 +31,7 @@ defect() {
 defect "a pixel is not the background" line_out.sv 's/color_q <= background_q;/color_q <= ~background_q;/'
 defect "a register has another value" registers.sv "s/frames_q + 32'd1/frames_q + 32'd2/"
 defect "TLAST is not on a line's last pixel" line_out.sv "s/issue_last_q <= left_q == X_BITS'(2)/issue_last_q <= left_q == X_BITS'(3)/"
+# The order of a pixel's bytes is seen.
+sed -i "s/{video\[7:0\], video\[23:16\], video\[15:8\]}/{video[23:16], video[7:0], video[15:8]}/" rtl/kage_axi.v
+if run GBR_ORDER=1 MAX_WIDTH=24; then echo "passed with red and blue crossed"; bad=1; fi
 exit $bad

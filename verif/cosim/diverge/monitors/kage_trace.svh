@@ -12,13 +12,13 @@ import "DPI-C" function void kage_trace(input int stage, input int unit, input b
 
 // A watched module's outputs as they should be, and as they are: an event where they differ.
 function automatic void trace_module(input int part, input logic [511:0] expected, input logic [511:0] actual);
-  logic [511:0] off;
-  off = expected ^ actual;
-  if (off != '0) begin
+  logic [511:0] differing;
+  differing = expected ^ actual;
+  if (differing != '0) begin
     for (int i = 0; i < 8; i++) begin
-      if (off[i*64+:64] != '0) begin
+      if (differing[i*64+:64] != '0) begin
         trace_part(0, 64'(part), expected[i*64+:64], actual[i*64+:64]);
-        off = '0;
+        differing = '0;
       end
     end
   end

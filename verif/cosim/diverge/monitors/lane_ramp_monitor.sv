@@ -12,7 +12,9 @@ module lane_ramp_monitor #(
     parameter int OFF_BITS = 1
 ) (
     input wire logic                      clk_i,
-    input wire logic [               2:0] set_en_i,
+    input wire logic                      rst_ni,
+    input wire logic [               1:0] set_en_i,
+    input wire logic                      put_i,
     input wire logic [          BITS-1:0] start_i,
     input wire logic [          BITS-1:0] slope_i,
     input wire logic [      OFF_BITS-1:0] offset_i,
@@ -24,8 +26,12 @@ module lane_ramp_monitor #(
 
   localparam int Delay = $clog2(LANES) + 2;
   localparam int SetBits = 2 * BITS + OFF_BITS;
-  logic [SetBits-1:0] set1_q, set2_q, set3_q;
-  bit [2:0] set_known_q;  // something has come in
+  // The last set-up stage is a queue of two: of it the oldest and the one behind.
+  logic [SetBits-1:0] set1_q, set2_q, oldest_q, behind_q;
+  bit [1:0] set_known_q;  // something has come in
+  bit oldest_known_q, behind_known_q;
+  logic [1:0] held_q;
+  logic puts;
   logic [BITS-1:0] start_q, slope_q;
   int place_q;  // of lane 0, from xl
   bit known_q;
@@ -34,7 +40,8 @@ module lane_ramp_monitor #(
   logic [LANES-1:0] used;
   logic [Delay*LANES*OUT_BITS-1:0] values_q;
   bit [Delay*LANES-1:0] used_q;
-  assign offset = set3_q[OFF_BITS-1:0];
+  assign offset = oldest_q[OFF_BITS-1:0];
+  assign puts   = put_i && held_q < 2'd2;
 
   logic signed [BITS-1:0] sum;
   int place;
@@ -55,11 +62,16 @@ module lane_ramp_monitor #(
   always_ff @(posedge clk_i) begin
     if (set_en_i[0]) {set1_q, set_known_q[0]} <= {start_i, slope_i, offset_i, 1'b1};
     if (set_en_i[1]) {set2_q, set_known_q[1]} <= {set1_q, set_known_q[0]};
-    if (set_en_i[2]) {set3_q, set_known_q[2]} <= {set2_q, set_known_q[1]};
+    held_q <= rst_ni ? held_q + 2'(puts) - 2'(load_i && held_q != '0) : '0;
+    if (load_i || held_q == '0) begin
+      if (held_q == 2'd2) {oldest_q, oldest_known_q} <= {behind_q, behind_known_q};
+      else {oldest_q, oldest_known_q} <= {set2_q, set_known_q[1]};
+    end
+    if (puts) {behind_q, behind_known_q} <= {set2_q, set_known_q[1]};
     if (load_i) begin
-      {start_q, slope_q} <= set3_q[SetBits-1:OFF_BITS];
+      {start_q, slope_q} <= oldest_q[SetBits-1:OFF_BITS];
       place_q <= LANES > 1 ? -32'(offset) : 0;
-      known_q <= set_known_q[2];
+      known_q <= oldest_known_q;
     end else if (step_i) begin
       place_q <= place_q + LANES;
     end
