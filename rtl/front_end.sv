@@ -2,13 +2,13 @@
 // Polygons to spans: tokens of a frame at the polygon level in, tokens of the span level out (docs/stream.md, "The
 // polygon level"). Frames at the span level pass as they are.
 //
-//   token_* -> queue -> polygon_token -> merge -> polygon_walk -> queue -> volume_ends -> token_*
-//   and of EDGE -> hls_edge_setup -> queue -> merge           its edge on the line
-//   active_list -> merge, polygon_walk -> active_list         polygons that cross the line, by place
+//   token_* -> queue -> polygon_token -> front_merge -> polygon_walk -> queue -> volume_ends -> token_*
+//   and of EDGE -> hls_edge_setup -> queue -> front_merge     its edge on the line
+//   active_list -> front_merge, polygon_walk -> active_list   polygons that cross the line, by place
 //
-// How: the line's polygons lie in active_list by place, and so do the tokens that the line brings. merge compares the
-//   two heads by their places, so that neither is ever searched. What is compared is a register: a token is judged on
-//   its way to be the head, a polygon on its way to be the list's first, and again when an AT has a new place.
+// How: the line's polygons lie in active_list by place, and so do the tokens that the line brings. front_merge compares
+//   the two heads by their places, so that neither is ever searched. What is compared is a register: a token is judged
+//   on its way to be the head, a polygon on its way to be the list's first, and again when an AT has a new place.
 // Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. drop_i, from behind, is
 //   high only in a clock in which a token is taken that does not end its frame: all that is here of the frame is
 //   forgotten, token_valid_o falls, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet.
@@ -16,7 +16,7 @@
 // Index: token_index_o is that of the token in the stream; what is made of a polygon has that of the token at hand.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull). After a
 //   token at fault what comes does not matter.
-// Latency: 12 clocks for a token; 31 from a polygon's second EDGE to its span. Throughput: a token a clock, a
+// Latency: 12 clocks for a token; 28 from a polygon's second EDGE to its span. Throughput: a token a clock, a
 //   polygon of the line a clock, each once a line; a polygon's tokens come on the line where it begins, and where one
 //   of its edges does. A line's EOL is one of its tokens. A line that is crossed by polygons from above waits 3 clocks
 //   for the first and costs 6 at least, another one 3.
@@ -70,7 +70,6 @@ module front_end #(
   localparam int Under = 16;  // items between merge and volume_ends: more than that takes clocks
   localparam int InBits = IN_WORDS * 32;
   localparam int OutBits = OUT_WORDS * 32;
-  localparam logic [EndLineBits-1:0] NoEnd = {1'b0, {EndLineBits - 1{1'b1}}};
 
   // ---- dropping ----------------------------------------------------------------------------------------------------
   // From the clock behind drop_i until the reader drops too and the edges on their way have come, everything here is
@@ -222,124 +221,52 @@ module front_end #(
       .place_o    (head_place)
   );
 
-  // ---- the frame and the line, as the head finds them --------------------------------------------------------------
-  logic [X_BITS-1:0] width_q;
-  logic [EndLineBits-1:0] next_line_q;
-  logic [31:0] index_q, index;
-  logic begun_q;  // a POLYGON waits for its edges
-  logic [1:0] have_q;  // sides that have come of it, or of the list's first
-  logic [WalkedEdgeBits-1:0] side_q[2];
-  logic end_have_q, end_goes_on_q;
-  logic [EndLineBits-1:0] end_q;
-  logic [ ActiveBits-1:0] fresh_q;  // the POLYGON's look and planes
-  assign index = head_flags.header ? '0 : index_q + 32'd1;
-
   // ---- merge -------------------------------------------------------------------------------------------------------
+  localparam int ItemBits = 2 + FamilyBits + 32 + FlagsBits + OutBits;
   logic list_valid, list_left, list_room, list_before, list_same, list_goes_on, swap_ready, list_pop, keep, swap, clear;
-  logic [ActiveBits-1:0] list;
-  logic misplaced, flushing, completes, fault, item, room_q;
-  logic gives_fresh, gives_token, made_in;
-  logic [CodeBits-1:0] code;
-  assign misplaced = head.misplaced || (head.of_level && begun_q && !head.edge_token && !head.gradient) ||
-      (head.gradient && !begun_q);
-  // The list's polygons that come before the token are given first.
-  assign flushing = head_valid && head.flushes && !begun_q && list_left &&
-      (!list_valid || head.eol || list_before || (head.polygon && list_same));
-  assign completes = head.edge_token && begun_q && have_q[!head.side];
-  always_comb begin
-    fault = misplaced;
-    code  = ErrPlace;
-    if (head.edge_token && !begun_q && (!list_valid || !list_same)) fault = 1'b1;
-    if (completes && !list_room) begin
-      fault = 1'b1;
-      code  = ErrActiveFull;
-    end
-  end
-  // All tokens wait for room, though some need none: whether one is at fault is known late.
-  assign head_ready = head_valid && room_q && !flushing && (!head.edge_token || edge_valid) &&
-      (!head.eol || swap_ready);
-  assign gives_fresh = head_ready && completes && !fault;
-  assign gives_token = head_ready && (head.at_once || head.eol || head.span || fault);
-  assign list_pop = flushing && list_valid && room_q;
-  assign made_in = list_pop || gives_fresh;
-  assign item = made_in || gives_token;
-  assign edge_ready = head_ready && head.edge_token;
-  assign swap = head_ready && head.eol && !fault;
-  assign clear = dropping_q || (head_ready && head_flags.header);
-
-  // The polygon that goes to the walk.
-  logic fresh, goes_on;
-  logic [ActiveBits-1:0] polygon;
-  assign fresh   = head.edge_token && begun_q;
-  assign goes_on = fresh && head.last ? head.goes_on : end_have_q ? end_goes_on_q : fresh || list_goes_on;
-  assign keep    = goes_on && made_in;
-  always_comb begin
-    polygon = fresh ? fresh_q : list;
-    if (fresh && head.last) polygon[ActiveEndAt+:EndLineBits] = head.end_line;
-    else if (end_have_q) polygon[ActiveEndAt+:EndLineBits] = end_q;
-    else if (fresh) polygon[ActiveEndAt+:EndLineBits] = NoEnd;
-    if (have_q[0] || fresh) polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = side_q[0];
-    if (have_q[1] || fresh) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = side_q[1];
-    if (fresh) begin
-      polygon[ActivePlaceAt+:PlaceBits] = head_place;
-      if (head.side) polygon[ActiveUpEdgeAt+:WalkedEdgeBits] = walked_edge;
-      else polygon[ActiveDownEdgeAt+:WalkedEdgeBits] = walked_edge;
-    end
-  end
-
-  always_ff @(posedge clk_i) begin
-    if (head_ready) index_q <= index;
-    if (head_ready && head_flags.header) begin
-      width_q <= head_token[HeaderWidthLsb+:X_BITS];
-      next_line_q <= EndLineBits'(1);
-    end else if (swap) begin
-      next_line_q <= next_line_q + 1'b1;
-    end
-    if (clear || swap) begin
-      begun_q <= 1'b0;
-      have_q <= 2'b00;
-      end_have_q <= 1'b0;
-    end else begin
-      if (head_ready && head.polygon) begun_q <= 1'b1;
-      else if (head_ready && completes) begun_q <= 1'b0;
-      if (list_pop || (head_ready && (head.polygon || completes))) begin
-        have_q <= 2'b00;
-        end_have_q <= 1'b0;
-      end else if (head_ready && head.edge_token) begin
-        have_q[head.side] <= 1'b1;
-        if (head.last) end_have_q <= 1'b1;
-      end
-    end
-    // Written in each clock in which the token waits, because whether it leaves is known late. That loses nothing: a
-    // polygon of the list that has yet to take its side from here goes first, so list_same is low until it has.
-    if (head_valid && head.edge_token && (begun_q || (list_valid && list_same))) begin
-      side_q[head.side] <= walked_edge;
-      if (head.last) begin
-        end_q <= head.end_line;
-        end_goes_on_q <= head.goes_on;
-      end
-    end
-    if (head_valid && head.polygon) begin
-      fresh_q[ActiveLookAt+:LookBits]   <= head_token[PolygonClassLsb+:LookBits];
-      fresh_q[ActiveValueAt+:PlaneBits] <= head_token[PolygonValueLsb+:PlaneBits];
-      fresh_q[ActiveRightAt+:PlaneBits] <= head_token[PolygonRightLsb+:PlaneBits];
-      fresh_q[ActiveDownAt+:PlaneBits]  <= head_token[PolygonDownLsb+:PlaneBits];
-      if (SMOOTH > 0) begin
-        for (int c = 0; c < CHANNELS; c++) begin
-          fresh_q[ActiveGradientsAt+3*c*ColorPlaneBits+:ColorPlaneBits] <=
-              ColorPlaneBits'(head_token[PolygonColorLsb+8*c+:8]) << PlaneFrac;
-          fresh_q[ActiveGradientsAt+(3*c+1)*ColorPlaneBits+:2*ColorPlaneBits] <= '0;
-        end
-      end
-    end
-    if (head_valid && head.gradient) begin
-      for (int c = 0; c < CHANNELS; c++) begin
-        if (head_token[GradientChannelLsb+:2] == 2'(c))
-          fresh_q[ActiveGradientsAt+3*c*ColorPlaneBits+:3*ColorPlaneBits] <=
-              head_token[GradientValueLsb+:3*ColorPlaneBits];
-      end
-    end
-  end
+  logic [ActiveBits-1:0] list, polygon;
+  logic item, made_in, goes_on, ends_line, room_q;
+  logic [ItemBits-1:0] item_in;
+  logic [X_BITS-1:0] width;
+  logic [EndLineBits-1:0] next_line;
+  front_merge #(
+      .IN_WORDS (IN_WORDS),
+      .OUT_WORDS(OUT_WORDS),
+      `include "generated/kage_pixel_param_map.svh"
+  ) u_merge (
+      .clk_i,
+      .flush_i       (dropping_q),
+      .head_valid_i  (head_valid),
+      .head_ready_o  (head_ready),
+      .head_i        (head_token),
+      .flags_i       (head_flags),
+      .role_i        (head),
+      .place_i       (head_place),
+      .edge_valid_i  (edge_valid),
+      .edge_ready_o  (edge_ready),
+      .edge_i        (walked_edge),
+      .list_valid_i  (list_valid),
+      .list_i        (list),
+      .list_left_i   (list_left),
+      .list_room_i   (list_room),
+      .list_before_i (list_before),
+      .list_same_i   (list_same),
+      .list_goes_on_i(list_goes_on),
+      .swap_ready_i  (swap_ready),
+      .pop_o         (list_pop),
+      .keep_o        (keep),
+      .swap_o        (swap),
+      .clear_o       (clear),
+      .next_line_o   (next_line),
+      .room_i        (room_q),
+      .width_o       (width),
+      .item_valid_o  (item),
+      .item_o        (item_in),
+      .made_o        (made_in),
+      .goes_on_o     (goes_on),
+      .ends_line_o   (ends_line),
+      .polygon_o     (polygon)
+  );
 
   // ---- the line's polygons -----------------------------------------------------------------------------------------
   logic list_write, swap_write;
@@ -357,7 +284,7 @@ module front_end #(
       .clear_i        (clear),
       .place_i        (head_place),
       .renew_i        (head_valid && head.at_token),
-      .line_i         (next_line_q),
+      .line_i         (next_line),
       .polygon_valid_o(list_valid),
       .polygon_o      (list),
       .before_o       (list_before),
@@ -382,11 +309,11 @@ module front_end #(
       .clk_i,
       .rst_ni,
       .flush_i     (dropping_q),
-      .width_i     (width_q),
+      .width_i     (width),
       .in_valid_i  (item),
       .in_made_i   (made_in),
       .in_keep_i   (goes_on),
-      .in_swap_i   (gives_token && head.eol && !fault),
+      .in_swap_i   (ends_line),
       .polygon_i   (polygon),
       .write_o     (list_write),
       .next_o      (next_polygon),
@@ -398,25 +325,15 @@ module front_end #(
 
   // ---- what goes beside the walk, the queue behind it, and the way out ---------------------------------------------
   // The walk never waits: an item enters when there is room for it in the queue behind.
-  localparam int ItemBits = 2 + FamilyBits + 32 + FlagsBits + OutBits;
-  logic [ItemBits-1:0] item_in, item_next;
+  logic [ItemBits-1:0] item_next;
   logic [MadeSpanBits-1:0] span_next;
-  logic item_room, item_there, made_room, made_there, made_next, whole;
+  logic item_room, item_there, made_room, made_there, made_next;
   logic out_next, item_ready, ending, made_valid, made_ready;
   logic [OutBits-1:0] made;
-  flags_t item_flags, made_flags;
+  logic [FlagsBits-1:0] made_flags;
   logic [31:0] made_index;
-  logic [FamilyBits-1:0] family;
   localparam int UnderBits = $clog2(Under + 1);
   logic [UnderBits-1:0] under_q;
-  always_comb begin
-    item_flags = head_flags;
-    item_flags.fault = gives_token && fault ? code : ErrNone;
-  end
-  assign whole = head.span && !fault && head_token[KindBits-1:0] == KindNc &&
-      head_token[RangeXlLsb+:X_BITS] == '0 && head_token[RangeXrLsb+:X_BITS] == width_q;
-  assign family = flushing ? list[ActivePlaceAt+RankBits+:FamilyBits] : head_place[RankBits+:FamilyBits];
-  assign item_in = {gives_token && (head.at_once || fault), whole, family, index, item_flags, head_token[OutBits-1:0]};
   stream_fifo #(
       .BITS (1 + ItemBits),
       .DEPTH(Under)
@@ -462,7 +379,7 @@ module front_end #(
       .clk_i,
       .rst_ni,
       .flush_i      (dropping_q),
-      .width_i      (width_q),
+      .width_i      (width),
       .item_valid_i (made_there),
       .item_ready_o (item_ready),
       .item_made_i  (made_next),
@@ -501,7 +418,7 @@ module front_end #(
       edges_q != '0 || (edge_there && edge_taken) || !swap_ready || (!room_q && under_q < UnderBits'(Under));
 
   logic unused_bits;
-  assign unused_bits = ^{head_token, token_i, in_flags};
+  assign unused_bits = ^{head, token_i, in_flags};
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
@@ -516,7 +433,9 @@ module front_end #(
       assert (!item || item_room);
       assert (!walk_valid || made_room);
       assert (!made_there || item_there);
-      // 3. A header finds nothing of the frame before in the walk, so nothing comes to be written to the list that it
+      // 3. One thing goes on at a time: the list's first, or the token at hand.
+      assert (!list_pop || !head_ready);
+      // 4. A header finds nothing of the frame before in the walk, so nothing comes to be written to the list that it
       //    clears.
       assert (!(head_valid && head_flags.header) || (under_q == '0 && !walk_busy));
     end

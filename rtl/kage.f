@@ -7,6 +7,7 @@ rtl/compare_tree.sv
 rtl/expansion_unit.sv
 rtl/frame_control.sv
 rtl/front_end.sv
+rtl/front_merge.sv
 rtl/hls_edge_setup.sv
 rtl/hls_edge_step.sv
 rtl/hls_plane_step.sv

@@ -193,6 +193,20 @@ module polygon_walk #(
   assign span.color = color;
   assign span.dcolor = dcolor;
 
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  always @(posedge clk_i) begin
+    if (rst_ni && !flush_i && valid_q[1]) begin
+      // 1. A span lies within the line, its left end first.
+      assert (xl_q <= xr_q && xr_q <= width_i);
+      // 2. What is said of its pixels' number is so.
+      assert (empty_q == (xl_q == xr_q) && single_q == (xr_q - xl_q == X_BITS'(1)));
+      // 3. A place of the walk is a polygon's or a line's end.
+      assert (!(write_o && swap_write_o));
+    end
+  end
+`endif
+
 endmodule
 
 `default_nettype wire

@@ -265,6 +265,26 @@ module volume_ends #(
   logic unused_bits;
   assign unused_bits = ^{token, coming_span};
 
+  // ---- assertions --------------------------------------------------------------------------------------------------
+`ifndef SYNTHESIS
+  logic joined_q;  // a span has joined a volume, and which
+  logic [X_BITS-1:0] joined_xl_q, joined_xr_q;
+  always @(posedge clk_i) begin
+    joined_q <= rst_ni && !flush_i && !flags_q.header && done && passes && is_q.of_volume;
+    joined_xl_q <= xl;
+    joined_xr_q <= xr;
+    if (rst_ni && !flush_i) begin
+      // 1. An item passes, or gives way to one end, or is none.
+      assert (32'(passes) + 32'(ends_volume) + 32'(ends_sample) + 32'(resolves) + 32'(is_q.none) == 32'd1);
+      // 2. An item leaves once all that ends before it has ended.
+      assert (!(item_valid && leaves && !is_q.none && is_q.behind_volumes) ||
+              !(volume_here_q || sample_here_q || any_q));
+      // 3. A volume's range holds every span of it.
+      assert (!joined_q || (volume_here_q && volume_xl_q <= joined_xl_q && joined_xr_q <= volume_xr_q));
+    end
+  end
+`endif
+
 endmodule
 
 `default_nettype wire

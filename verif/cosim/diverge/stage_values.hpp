@@ -155,6 +155,13 @@ enum class Part : std::uint8_t {
   expansion_unit,  ///< a line has another length than its segments
   frame_control,  ///< a rule of its handshakes
   table_check,
+  hls_edge_setup,  ///< an edge's crossing of a line
+  polygon_token,
+  front_merge,
+  active_list,
+  plane_at,
+  polygon_walk,
+  volume_ends,
 };
 /// At equal clocks wiring is to blame first, then leaf modules, then their parents.
 enum class Level : std::uint8_t { wiring, leaf, parent };
@@ -162,7 +169,7 @@ struct PartInfo {
   std::string_view module;
   Level level;
 };
-inline constexpr std::array<PartInfo, 17> kParts{{
+inline constexpr std::array<PartInfo, 24> kParts{{
     {"ram_1r1w", Level::leaf},
     {"stream_fifo", Level::leaf},
     {"skid_buffer", Level::leaf},
@@ -180,6 +187,13 @@ inline constexpr std::array<PartInfo, 17> kParts{{
     {"expansion_unit", Level::parent},
     {"frame_control", Level::parent},
     {"table_check", Level::parent},
+    {"hls_edge_setup", Level::leaf},
+    {"polygon_token", Level::leaf},
+    {"front_merge", Level::leaf},
+    {"active_list", Level::parent},
+    {"plane_at", Level::leaf},
+    {"polygon_walk", Level::parent},
+    {"volume_ends", Level::parent},
 }};
 
 }  // namespace kage::cosim

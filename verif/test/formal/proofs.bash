@@ -79,6 +79,40 @@ defect fifo_valid_falls stream_fifo_4 stream_fifo.sv 's/assign out_valid_o = .*/
 defect fifo_data_move stream_fifo_4 stream_fifo.sv 's/assign out_data_o = .*/assign out_data_o = mem[out_ready_i ? rd_at : wr_at];/'
 defect fifo_kept_in_reset stream_fifo_4 stream_fifo.sv "s/wr_q <= '0;/;/"
 
+# ---- active_list -----------------------------------------------------------------------------------------------------
+list_memory=
+for ((word = 0; word < 4; word++)); do list_memory+=" inside_memory[$((4 * word + 3)):$((4 * word))]=\\dut.u_banks.mem[$word]"; done
+proof active_list rtl="active_list ram_1r1w" own_assertions=yes steps=9 induction=3 defect_steps=14 cover=14 inside="inside_word=dut.word
+  inside_next=dut.next_q inside_first=dut.first_q inside_read_bank=dut.read_bank_q inside_write_bank=dut.write_bank_q
+  inside_loaded=dut.loaded_q inside_next_valid=dut.next_valid_q inside_first_valid=dut.first_valid_q
+  inside_read_at=dut.read_at_q inside_write_at=dut.write_at_q inside_there=dut.there_q inside_left=dut.left_q
+  inside_kept=dut.kept_q inside_all=dut.all_q$list_memory"
+defect list_polygon_lost active_list active_list.sv 's/read_at_q + (AddrBits + 1).(read)/read_at_q + (AddrBits + 1)'"'"'(read) + (AddrBits + 1)'"'"'(pop_i \&\& read)/'
+defect list_polygon_doubled active_list active_list.sv 's/loaded_q <= read || (loaded_q \&\& !next_free)/loaded_q <= read || loaded_q/'
+defect list_bank_crossed active_list active_list.sv 's/{read_bank_q, read_at_q/{!read_bank_q, read_at_q/'
+defect list_read_early active_list active_list.sv 's/swap_ready_o ? there_q : write_at_q/there_q/'
+defect list_line_longer active_list active_list.sv 's/left_q <= swap_i ? kept_q : left_q/left_q <= swap_i ? kept_q + TallyBits'"'"'(write_i) : left_q/'
+defect list_never_given active_list active_list.sv 's/first_valid_q <= (next_valid_q \&\& first_free)/first_valid_q <= (next_valid_q \&\& first_free \&\& !renew_i \&\& !write_i \&\& swap_ready_o)/'
+defect list_left_late active_list active_list.sv 's/pop_i ? left_q != TallyBits.(1) : left_any_q/pop_i ? left_q != 0 : left_any_q/'
+defect list_full_unseen active_list active_list.sv 's/keep_i \&\& all_q == TallyBits.(ACTIVE - 1)/1'"'"'b0/'
+defect list_swap_unseen active_list active_list.sv 's/assign swap_ready_o = .*/assign swap_ready_o = 1;/'
+defect list_judged_before active_list active_list.sv 's/if (first_free || renew_i)/if (first_free)/'
+
+# ---- volume_ends -----------------------------------------------------------------------------------------------------
+proof volume_ends rtl="volume_ends stream_register" own_assertions=yes steps=8 induction=2 defect_steps=10 cover=10 inside="inside_any=dut.any_q
+  inside_volume=dut.volume_here_q inside_sample=dut.sample_here_q inside_there=dut.item_valid inside_family=dut.family_q
+  inside_volume_xl=dut.volume_xl_q inside_volume_xr=dut.volume_xr_q inside_sample_xl=dut.sample_xl_q
+  inside_sample_xr=dut.sample_xr_q inside_none=dut.is_q[5] inside_of_volume=dut.is_q[4] inside_behind=dut.is_q[3]
+  inside_other_volume=dut.is_q[2] inside_other_sample=dut.is_q[1] inside_whole=dut.is_q[0] inside_kind=dut.token_q[3:0]
+  inside_header=dut.flags_q[8]"
+defect ends_least_lost volume_ends volume_ends.sv 's/xl < volume_xl_q/xl > volume_xl_q/'
+defect ends_greatest_lost volume_ends volume_ends.sv 's/xr > volume_xr_q/1/'
+defect ends_sample_narrow volume_ends volume_ends.sv 's/if (!sample_here_q || volume_xr_q > sample_xr_q)/if (!sample_here_q)/'
+defect ends_volume_joined volume_ends volume_ends.sv 's/(is_q.of_volume \&\& is_q.other_volume)/1'"'"'b0/'
+defect ends_unended volume_ends volume_ends.sv 's/(is_q.behind_volumes || (is_q.of_volume \&\& is_q.other_volume))/(is_q.of_volume \&\& is_q.other_volume)/'
+defect ends_resolve_twice volume_ends volume_ends.sv 's/if (resolves) any_q <= 1.b0;/if (resolves) any_q <= sample_xl_q[0];/'
+defect ends_token_moves volume_ends volume_ends.sv 's/assign token_index_o = index_q;/assign token_index_o = index_q + 32'"'"'(token_ready_i);/'
+
 # ---- async_fifo ------------------------------------------------------------------------------------------------------
 async_cover=([4]=48 [8]=72)
 for depth in 4 8 16; do
