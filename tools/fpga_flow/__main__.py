@@ -88,6 +88,7 @@ def figures_of(top, device, what, options, tools, folder):
         "worst_path": timing.worst_path(report, places),
         "worst_endpoints": timing.worst_endpoints(report, places, 10),
         "bitstream": bitstream,
+        "of": kept.of_run(folder, device, what, {timing.Places.plain(n) for n in modules}),
         "seconds": progress.steps,
     }
 
@@ -224,10 +225,12 @@ def run_into(out, top, options, measured):
         work.mkdir(parents=True)
         shutil.copytree(top / "rtl", work / "rtl")
         shutil.copytree(top / "constraints", work / "constraints")
+        (work / kept.FLOW).parent.mkdir(parents=True)  # so that the figures are of what was there at the start
+        shutil.copy(top / kept.FLOW, work / kept.FLOW)
         figures = measured(tools, work)
         text = json.dumps(figures, indent=2) + "\n"
         (work / FIGURES).write_text(text)
-        for folder in ("rtl", "constraints"):
+        for folder in ("rtl", "constraints", "tools"):
             shutil.rmtree(work / folder)
         if out.exists():
             shutil.rmtree(out)
@@ -304,7 +307,7 @@ def main():
     if options.core_only:
         return 0 if figures["not_placed"] is None else 1
     if options.record:
-        kept.record(top, figures)
+        print(f"tools/fpga: {kept.record(top, figures)}", file=sys.stderr)
     lost = [] if row is None else kept.lost(row, figures, options.gate)
     for sentence in lost:
         print(f"tools/fpga: {device.name} {what.name} lost more than {options.gate:g} %: {sentence}", file=sys.stderr)

@@ -1,11 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""constraints/figures.json: what each device and core was measured to reach, a row each, and the gate against it."""
+"""constraints/figures.json: what each device and core was measured to reach, a row each, and the gate against it. A row keeps of
+which RTL, constraints and flow it is, so that who quotes it can tell whether that is what is there (tools/figures)."""
 
 import datetime
 import json
+import pathlib
 import statistics
+import sys
 
+import core
 from trouble import Trouble
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+import kept_rows
 
 PLACE = "constraints/figures.json"
 BOARDS = "constraints/board_figures.json"
@@ -24,6 +31,33 @@ def rows_of(top):
         raise Trouble(f"{path}: no list of rows: {e}") from e
 
 
+FLOW = "tools/fpga_flow/flow.py"  # the options of yosys and nextpnr
+
+
+def values_of(device, what):
+    """What of a run's options changes its figures, beside files and versions."""
+    return {"parameters": what.parameters, "nextpnr": list(device.nextpnr)}
+
+
+def of_run(top, device, what, modules):
+    """What a run of the core was measured on; `modules` are all that it has."""
+    files = [f for m in modules for f in (f"rtl/{m}.sv", f"constraints/{m}.sv") if (top / f).is_file()]
+    files = kept_rows.with_includes(top, files)
+    files += [FLOW, "constraints/least_loop.sv", "constraints/lone_adder.sv"]
+    return kept_rows.of_what(top, files, values_of(device, what))
+
+
+def moved(top, row):
+    """Which files are others than those that the row was measured on; [] if it is of what is there."""
+    if "of" not in row:
+        return ["all: the row does not say of what it is"]
+    try:
+        values = values_of(core.find_device(top, row["device"]), core.find_core(top, [row["core"]]))
+    except Trouble:
+        return ["its core or device"]
+    return kept_rows.moved(top, row["of"], values)
+
+
 def row_of(figures):
     """What of a run's figures is kept."""
     path = figures["worst_path"]
@@ -40,6 +74,7 @@ def row_of(figures):
         "lone_adder_mhz": round(figures["lone_adder_mhz"]["median"], 2),
         "loop_bits": figures["loop_bits"],
         "worst_path": [path["from"], *(f"{cells} of {module}" for module, cells in path["through"]), path["to"]],
+        "of": figures["of"],
     }
 
 
@@ -78,16 +113,31 @@ def record_board(top, figures):
     path.write_text(f"[\n{text}\n]\n")
 
 
+def said_of(top, old, row):
+    """A sentence: what a row says now that it did not, and which files have moved since."""
+    now = f"{row['device']} {row['core']}: clock {row['clock_mhz']:.1f} MHz"
+    if not old:
+        return f"{now}, a new row"
+    now += f", was {old['clock_mhz']:.1f}"
+    for cell, used in row["cells"].items():
+        if old["cells"].get(cell) != used:
+            now += f"; {cell.upper()} {used}, was {old['cells'].get(cell)}"
+    return f"{now}; moved since: {', '.join(moved(top, old)) or 'nothing'}"
+
+
 def record(top, figures):
-    """Puts the row of a run into the file, in place of the one that was there. Where `before_mhz` stood it stays."""
+    """Puts the row of a run into the file, in place of the one that was there, and gives a sentence of what has moved. Where
+    `before_mhz` stood it stays."""
     rows = rows_of(top)
     row = row_of(figures)
     old = rows.get(key_of(row), {})
+    said = said_of(top, old, row)
     if "before_mhz" in old:
         row["before_mhz"] = old["before_mhz"]
     rows[key_of(row)] = row
     text = ",\n".join(json.dumps(rows[k], ensure_ascii=False) for k in sorted(rows))
     (top / PLACE).write_text(f"[\n{text}\n]\n")
+    return said
 
 
 def row_for(top, device, core, seeds):

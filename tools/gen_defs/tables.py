@@ -3,9 +3,13 @@
 
 import json
 import re
+import sys
 
 from expressions import camel, plain
 from files import BOARD_FIGURES, FIGURES, TOP
+
+sys.path.append(str(TOP / "tools/fpga_flow"))
+import figures as fpga
 
 
 def filled(defs, text):
@@ -172,11 +176,23 @@ def figures(_):
         middle = [m for i, m in enumerate(modules) if m != "kage_wrap" and m not in modules[:i]]
         return f"`{first}`, through {', '.join(middle)}, `{last}`" if middle else f"`{first}`, `{last}`"
 
-    head = ("device", "core", "before", "clock, MHz", "seeds", "least loop (bits)", "share", "LUT", "flip-flops")
+    head = (
+        "device",
+        "core",
+        "of RTL",
+        "before",
+        "clock, MHz",
+        "seeds",
+        "least loop (bits)",
+        "share",
+        "LUT",
+        "flip-flops",
+    )
     rows = [
         (
             r["device"],
             f"`{r['core']}`",
+            "earlier" if fpga.moved(TOP, r) else "this",
             f"{r['before_mhz']:.1f}" if "before_mhz" in r else "",
             clock(r),
             len(r["clocks_mhz"]),
