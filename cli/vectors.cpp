@@ -322,8 +322,11 @@ int write_pack(const VectorsCommand& o) {
   if (!o.no_rtl) {
     RtlRun rtl;
     rtl.options.seed = o.seed;
-    play(from, rtl,
-         [&](const cosim::FrameResult& r) { pack.frames.at(static_cast<std::size_t>(r.frame)).clocks = r.cycles; });
+    play(from, rtl, [&](const cosim::FrameResult& r) {
+      vectors::PackFrame& frame = pack.frames.at(static_cast<std::size_t>(r.frame));
+      // Behind a refused header no pixel comes: its clocks would be those that the driver waits for one.
+      if (frame.lines() > 0) frame.clocks = r.cycles;
+    });
     pack.rtl_agrees = true;
   }
   if (!json_only(o))

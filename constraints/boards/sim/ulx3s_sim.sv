@@ -2,8 +2,8 @@
 // The ULX3S as a whole, for simulation: its top, and the SDRAM at its pins with the delays of pads and chip. What is
 // outside, crystal, host and screen, is verif/board/sim's.
 //
-// dq_late: what the chip puts out reaches the FPGA's flip-flop 11 ns after the clock left it: 3 ns for the clock's way
-// out, 6 for the chip (t_AC), 2 for the way in.
+// dq_late: what the chip puts out reaches the FPGA's flip-flop LATE_PS picoseconds after the clock left it: as it
+// stands 3 ns for the clock's way out, 6 for the chip (t_AC), 2 for the way in.
 // wires_o: of the DVI socket, from bit 0 on blue, green, red and the clock.
 // bits_o, periods_o: so many bits go over the DVI link in so many periods of the crystal, which follows from the PLL's
 // parameters. The model's screen looks at the wires by them.
@@ -18,6 +18,8 @@ module board_sim #(
     parameter int BIT_DIV = 6,
     parameter int CORE_DIV = 12,
     parameter int MEM_DIV = 10,
+    parameter int READ_RISING = 0,
+    parameter int LATE_PS = 11_000,
     parameter int LINES = 2048,
     parameter int T_INIT = 200_000,
     parameter int H_ACTIVE = 640,
@@ -56,25 +58,26 @@ module board_sim #(
   ulx3s #(
       `include "generated/kage_impl_param_map.svh"
       `include "generated/kage_pixel_param_map.svh",
-      .BAUD      (BAUD),
-      .REF_DIV   (REF_DIV),
-      .FB_DIV    (FB_DIV),
-      .BIT_DIV   (BIT_DIV),
-      .CORE_DIV  (CORE_DIV),
-      .MEM_DIV   (MEM_DIV),
-      .LINES     (LINES),
-      .T_INIT    (T_INIT),
-      .H_ACTIVE  (H_ACTIVE),
-      .H_FRONT   (H_FRONT),
-      .H_SYNC    (H_SYNC),
-      .H_BACK    (H_BACK),
-      .V_ACTIVE  (V_ACTIVE),
-      .V_FRONT   (V_FRONT),
-      .V_SYNC    (V_SYNC),
-      .V_BACK    (V_BACK),
-      .H_POSITIVE(H_POSITIVE),
-      .V_POSITIVE(V_POSITIVE),
-      .LED_BITS  (LED_BITS)
+      .BAUD       (BAUD),
+      .REF_DIV    (REF_DIV),
+      .FB_DIV     (FB_DIV),
+      .BIT_DIV    (BIT_DIV),
+      .CORE_DIV   (CORE_DIV),
+      .MEM_DIV    (MEM_DIV),
+      .READ_RISING(READ_RISING),
+      .LINES      (LINES),
+      .T_INIT     (T_INIT),
+      .H_ACTIVE   (H_ACTIVE),
+      .H_FRONT    (H_FRONT),
+      .H_SYNC     (H_SYNC),
+      .H_BACK     (H_BACK),
+      .V_ACTIVE   (V_ACTIVE),
+      .V_FRONT    (V_FRONT),
+      .V_SYNC     (V_SYNC),
+      .V_BACK     (V_BACK),
+      .H_POSITIVE (H_POSITIVE),
+      .V_POSITIVE (V_POSITIVE),
+      .LED_BITS   (LED_BITS)
   ) u_board (
       .clk_25mhz (clk_i),
       .btn       ({6'b0, button_ni}),
@@ -96,8 +99,8 @@ module board_sim #(
   );
 
   assign d = dq_oe_late ? dq_late : 'z;
-  always @(dq) dq_late <= #11000 dq;
-  always @(dq_oe) dq_oe_late <= #11000 dq_oe;
+  always @(dq) dq_late <= #(LATE_PS) dq;
+  always @(dq_oe) dq_oe_late <= #(LATE_PS) dq_oe;
 
   // The chip has its supply from its first clock on, and knows nothing before.
   logic power_q = 1'b0;

@@ -11,8 +11,11 @@
 //   clocks of each of the others.
 // SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Read
 //   data are taken at the memory's falling edge. At 75 MHz they are valid there from 2.3 ns before that edge to 7.5 ns
-//   after it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in. All pins but
-//   clock, data enable and constants have their flip-flop in the pad, so no placement changes their delays.
+//   after it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in. READ_RISING
+//   1 takes them at the rising edge behind it, 6.7 ns later: for pads whose ways take 1 to 8 ns more than these 5. Chip
+//   and flip-flops have one clock, so the phase of the PLL's output moves both, and no margin. A greater MEM_DIV widens
+//   it. All pins but clock, data enable and constants have their flip-flop in the pad, so no placement changes their
+//   delays.
 `default_nettype none
 
 module ulx3s #(
@@ -27,6 +30,7 @@ module ulx3s #(
     parameter int BIT_DIV = 6,
     parameter int CORE_DIV = 12,
     parameter int MEM_DIV = 10,
+    parameter int READ_RISING = 0,
     parameter int LINES = 2048,
     parameter int T_INIT = 200_000,
     parameter int H_ACTIVE = 640,
@@ -158,7 +162,7 @@ module ulx3s #(
       .MEMORY     (1),
       .SDRAM_HZ   (VcoHz / MEM_DIV),
       .CAS_LATENCY(2),
-      .READ_DELAY (3),                // the clock is turned round; a register out and one in
+      .READ_DELAY (3 + READ_RISING),  // the clock is turned round; a register out and one in
       .T_INIT     (T_INIT),
       .LINES      (LINES),
       .H_ACTIVE   (H_ACTIVE),
@@ -233,7 +237,7 @@ module ulx3s #(
     TRELLIS_FF #(
         .GSR   ("DISABLED"),
         .CEMUX ("CE"),
-        .CLKMUX("INV"),
+        .CLKMUX(READ_RISING > 0 ? "CLK" : "INV"),
         .LSRMUX("LSR"),
         .SRMODE("ASYNC"),
         .REGSET("RESET")

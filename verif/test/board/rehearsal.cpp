@@ -230,6 +230,11 @@ TEST_CASE("first light of a board whose bits take no whole number of picoseconds
   CHECK(rehearse({}, 0, ulx3s("ulx3s_85f")) == "same");
 }
 
+// The rehearsal's 12F has pads whose words come 2.5 ns later than the 25F takes them.
+TEST_CASE("first light of a board with slow pads, whose words are taken at the other edge", "[.][rehearse]") {
+  CHECK(rehearse({}, 0, ulx3s("ulx3s_12f")) == "same");
+}
+
 TEST_CASE("first light of the HX8K board: frames from block RAM, no screen", "[.][rehearse]") {
   CHECK(rehearse({}, 0, hx8k(false)) == "same");
 }

@@ -60,7 +60,7 @@ said "block RAM of 8192 bytes holds"
 said "block RAM (48 MHz, a word a clock): 192000 kB/s"
 said "no screen"
 refused "large: hx8k_breakout does not hold it: its core has X_BITS 9 and not 11" hx8k_breakout --pack large
-grep -q "; ulx3s_25f, ulx3s_85f would$" stderr || fail "the boards that would are not named"
+grep -q "; ulx3s_25f, ulx3s_12f, ulx3s_85f would$" stderr || fail "the boards that would are not named"
 refused "bytes in a list, and its memory 8192; no board of constraints/boards does; kage board plays it straight from the line" hx8k_breakout --pack big
 # The pack of the board's README fits.
 line=$(sed -n 's/^kage vectors \(.*--config hx8k.yaml.*\)--out pack.*/\1/p' "$source/constraints/boards/hx8k_breakout/README.md")

@@ -5,7 +5,10 @@
 . "$(dirname "$0")/common.bash"
 . "$source/verif/test/cli/packs.bash"
 make p courtyard --size 16x12 --frames 2 --config default
-json pack.json 'j["frames"]==20 and j["malformed"]==18 and j["pixels"]>=2*16*12 and j["clocks"]>0'
+json pack.json 'j["frames"]==20 and j["malformed"]==18 and j["pixels"]>=2*16*12 and 0<j["clocks"]<20*2000'
+# Of a refused header no clocks are told, and of no other frame those that the driver waits for.
+json pack/manifest.json '(f:=[x for x in j["frames"] if x["height"]==0]) and all(x["clocks"] is None for x in f)'
+json pack/manifest.json 'all(0<x["clocks"]<2000 for x in j["frames"] if x["height"]>0)'
 no_leftovers
 
 # ---- sizes are said before, exactly ----

@@ -5,23 +5,25 @@
 /* verilator lint_off UNUSEDSIGNAL */  // whole words are taken apart
 /* verilator lint_off BLKSEQ */  // a model, in the order of its lines
 
-module hls_edge_setup_monitor (
-    input wire logic        clk_i,
-    input wire logic        rst_ni,
-    input wire logic        in_valid_i,
-    input wire logic        in_ready_o,
-    input wire logic        out_valid_o,
-    input wire logic        out_ready_i,
-    input wire logic [23:0] top_x_i,
-    input wire logic [23:0] top_y_i,
-    input wire logic [23:0] bottom_x_i,
-    input wire logic [23:0] bottom_y_i,
-    input wire logic [14:0] line_i,
-    input wire logic [16:0] x_o,
-    input wire logic [16:0] step_o,
-    input wire logic [23:0] rest_o,
-    input wire logic [23:0] rest_step_o,
-    input wire logic [23:0] dy_o
+module hls_edge_setup_monitor #(
+    parameter int LINE_BITS = 1
+) (
+    input wire logic                 clk_i,
+    input wire logic                 rst_ni,
+    input wire logic                 in_valid_i,
+    input wire logic                 in_ready_o,
+    input wire logic                 out_valid_o,
+    input wire logic                 out_ready_i,
+    input wire logic [         23:0] top_x_i,
+    input wire logic [         23:0] top_y_i,
+    input wire logic [         23:0] bottom_x_i,
+    input wire logic [         23:0] bottom_y_i,
+    input wire logic [LINE_BITS-1:0] line_i,
+    input wire logic [         16:0] x_o,
+    input wire logic [         16:0] step_o,
+    input wire logic [         23:0] rest_o,
+    input wire logic [         23:0] rest_step_o,
+    input wire logic [         23:0] dy_o
 );
   `include "kage_trace.svh"
 
@@ -75,7 +77,7 @@ module hls_edge_setup_monitor (
 
 endmodule
 
-bind hls_edge_setup hls_edge_setup_monitor u_monitor (.*);
+bind hls_edge_setup hls_edge_setup_monitor #(.LINE_BITS($bits(line_i))) u_monitor (.*);
 
 /* verilator lint_on BLKSEQ */
 /* verilator lint_on UNUSEDSIGNAL */

@@ -421,7 +421,7 @@ TEST_CASE("a core of another configuration is refused, with what to do") {
             "BEAT_WORDS: 1}"));
   for (const std::string& name : sim_boards()) CHECK_NOTHROW(config_from_text(sim_core(name), name));
   CHECK_THROWS_WITH(sim_core("nothing"),
-                    "sim:nothing: no board with a simulation; there are ulx3s_25f, ulx3s_85f, "
+                    "sim:nothing: no board with a simulation; there are ulx3s_25f, ulx3s_12f, ulx3s_85f, "
                     "hx8k_breakout, hx8k_breakout_vga");
 }
 
