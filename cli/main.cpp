@@ -17,6 +17,7 @@
 #include "commit.hpp"  // made by cmake/KageCommit.cmake
 #include "kage/error.hpp"
 #include "mapped.hpp"
+#include "module/foreign_code.hpp"
 #include "options.hpp"
 #include "signals.hpp"
 #include "simd/targets.hpp"
@@ -150,6 +151,9 @@ int main(int argc, char** argv) {
     open_standard_files();
     find_data();
     catch_signals();
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    kage::tell_foreign_ends(kTrouble);
+#endif
     (void)kage::simd::in_use();  // a KAGE_SIMD that cannot be had is refused before the work, by every command
     const int rc = run(argc, argv);
     errno = 0;

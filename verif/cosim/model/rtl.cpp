@@ -17,6 +17,7 @@
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
+#include "module/foreign_code.hpp"
 #include "number/mixed.hpp"
 #include "pipeline/stopwatch.hpp"
 
@@ -33,7 +34,10 @@ class Rtl : public RtlCore {
  public:
   Rtl(const std::filesystem::path& path, const Config& config, const RtlOptions& options)
       : config_(config), options_(options), library_(path, config), table_(library_.table()), marker_(config) {
-    model_ = table_->create(initial_seed(options));
+    {
+      const ForeignCode mark("RTL model: its construction");
+      model_ = table_->create(initial_seed(options));
+    }
     if (model_ == nullptr) throw Error(fmt::format("{}: out of memory", path.string()));
     table_->assertions(model_, options.assertions ? 1 : 0);
     if (options_.text) table_->on_text(model_, take_text, this);

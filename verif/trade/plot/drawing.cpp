@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cosim/report/html.hpp"
+#include "module/foreign_code.hpp"
 #include "trade/plot/module/table.hpp"
 
 namespace kage::plot {
@@ -80,7 +81,9 @@ std::string svg_of(const Text& text) {
 void load() { module_table<PlotModule>(); }
 
 double width_of(std::string_view text, double size, bool bold) {
-  return module_table<PlotModule>().width(text, size, bold);
+  const PlotModule& module = module_table<PlotModule>();
+  const ForeignCode mark("the plots: Cairo and fontconfig");
+  return module.width(text, size, bold);
 }
 
 std::string to_svg(const Drawing& drawing) {
@@ -94,6 +97,10 @@ std::string to_svg(const Drawing& drawing) {
   return out + "</svg>\n";
 }
 
-Image to_image(const Drawing& drawing, double scale) { return module_table<PlotModule>().image(drawing, scale); }
+Image to_image(const Drawing& drawing, double scale) {
+  const PlotModule& module = module_table<PlotModule>();
+  const ForeignCode mark("the plots: Cairo and fontconfig");
+  return module.image(drawing, scale);
+}
 
 }  // namespace kage::plot
