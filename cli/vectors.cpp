@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "cosim/run.hpp"
+#include "file/hidden_folder.hpp"
 #include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
@@ -276,6 +277,7 @@ Json summary(const vectors::Pack& pack, const std::string& folder, const std::op
 /// A pack may be written over an older one, and over nothing else.
 void refuse_other_files(const std::filesystem::path& folder) {
   std::error_code e;
+  HiddenFolder::sweep(folder);  // of a run that was killed while it wrote here
   if (!std::filesystem::is_directory(folder, e) || std::filesystem::is_empty(folder, e)) return;
   const std::filesystem::path manifest = folder / vectors::kManifest;
   const std::string text = std::filesystem::is_regular_file(manifest, e) ? read_file(manifest) : std::string();

@@ -13,7 +13,13 @@ fs::path real_path(const fs::path& path) {
   const fs::path whole = fs::absolute(path, ec);
   if (ec) return {};
   fs::path real = fs::weakly_canonical(whole, ec);
-  return ec ? fs::path() : real;
+  // weakly_canonical() takes a link to what does not exist for a name that does not exist.
+  constexpr int kMostLinks = 40;  // as many as the kernel follows
+  for (int i = 0; !ec && fs::is_symlink(real, ec); ++i) {
+    if (i == kMostLinks) return {};
+    real = fs::weakly_canonical(real.parent_path() / fs::read_symlink(real, ec), ec);
+  }
+  return ec && ec != std::errc::no_such_file_or_directory ? fs::path() : real;
 }
 
 bool lies_in(const fs::path& path, const fs::path& folder) {

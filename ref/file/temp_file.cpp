@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -24,8 +25,8 @@ namespace fs = std::filesystem;
 fs::path replaced_by(const fs::path& target) {
   std::error_code ec;
   if (!fs::is_symlink(target, ec)) return target;
-  fs::path real = fs::weakly_canonical(target, ec);
-  if (ec) throw Error(fmt::format("{}: {}", target.string(), ec.message()));
+  fs::path real = real_path(target);
+  if (real.empty()) throw Error(fmt::format("{}: cannot be written: a link that leads nowhere", target.string()));
   return real;
 }
 
@@ -45,6 +46,13 @@ std::shared_ptr<HiddenFolder> hidden_beside(const fs::path& target, const fs::pa
   } catch (const std::system_error& e) {
     fail_write(given.string(), e.code().value());
   }
+}
+
+/// Of what has the name itself; none if nothing has.
+std::optional<FileId> id_of(const fs::path& path) {
+  struct stat st {};
+  if (lstat(path.c_str(), &st) != 0) return std::nullopt;
+  return FileId{st.st_dev, st.st_ino, st.st_mode, st.st_size, st.st_mtim.tv_sec, st.st_mtim.tv_nsec};
 }
 
 }  // namespace
@@ -86,11 +94,7 @@ fs::path TempFile::target() const { return real_path(target_); }
 
 void TempFile::place() {
   if (way_ == Way::remove) {
-    std::error_code ec;
-    const fs::path kept = folder_->new_name(target_.extension());
-    fs::rename(target_, kept, ec);
-    if (ec) throw Error(fmt::format("{}: cannot be removed: {}", given_.string(), ec.message()));
-    aside_ = kept;
+    move_aside(false);
   } else if (device_) {
     write_device();
   } else {
@@ -101,20 +105,39 @@ void TempFile::place() {
 
 void TempFile::rename() {
   std::error_code ec;
-  const bool there = fs::exists(fs::symlink_status(target_, ec));
-  if (there) {
-    // A second name, so that the first one is never without a file; where there are none, it has to be for a moment.
-    const fs::path kept = folder_->new_name(target_.extension());
-    fs::create_hard_link(target_, kept, ec);
-    if (ec) fs::rename(target_, kept, ec);
-    if (!ec) aside_ = kept;
-  }
-  if (!there || !aside_.empty()) fs::rename(temp_, target_, ec);
+  if (fs::exists(fs::symlink_status(target_, ec))) move_aside(true);
+  own_ = id_of(temp_);
+  fs::rename(temp_, target_, ec);
   if (ec) {
-    if (!aside_.empty()) undo();
+    undo();
     fail_write(given_.string(), ec.value());
   }
   temp_.clear();
+}
+
+// The name may have come to be something else since it was asked for: that is not kage's, and stays. It is looked at
+// again under the name that nobody else has, because the first look may be too early.
+void TempFile::move_aside(bool link) {
+  const auto refuse = [&] { throw Error(fmt::format("{}: exists and is not a file", given_.string())); };
+  std::error_code ec;
+  if (const auto status = fs::symlink_status(target_, ec); fs::exists(status) && !fs::is_regular_file(status)) refuse();
+  const fs::path kept = folder_->new_name(target_.extension());
+  // A second name, so that the first one is never without a file; where there are none, it has to be for a moment.
+  ec = std::make_error_code(std::errc::operation_not_permitted);
+  if (link) fs::create_hard_link(target_, kept, ec);
+  const bool moved = static_cast<bool>(ec);
+  if (moved) fs::rename(target_, kept, ec);
+  if (ec && way_ == Way::remove) throw Error(fmt::format("{}: cannot be removed: {}", given_.string(), ec.message()));
+  if (ec) fail_write(given_.string(), ec.value());
+  if (fs::is_regular_file(fs::symlink_status(kept, ec))) {
+    aside_ = kept;
+    return;
+  }
+  if (moved)
+    (void)renameat2(AT_FDCWD, kept.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE);
+  else
+    fs::remove(kept, ec);
+  refuse();
 }
 
 void TempFile::write_device() {
@@ -133,7 +156,11 @@ void TempFile::write_device() {
 
 void TempFile::undo() {
   std::error_code ec;
-  if (aside_.empty()) {
+  const bool there = fs::exists(fs::symlink_status(target_, ec));
+  if (!device_ && there && (!own_ || id_of(target_) != own_)) {
+    // Another program has given the name to a file of its own meanwhile.
+    if (!aside_.empty()) fs::remove(aside_, ec);
+  } else if (aside_.empty()) {
     if (!device_) fs::remove(target_, ec);
   } else {
     fs::rename(aside_, target_, ec);

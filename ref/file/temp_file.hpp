@@ -3,8 +3,10 @@
 // Files that appear under their names whole, and together.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +15,18 @@
 #include "file/output_file.hpp"
 
 namespace kage {
+
+/// What a file is, whatever name it has. The number of one that was removed may be another's: so there is more than
+/// that.
+struct FileId {
+  std::uint64_t device = 0;
+  std::uint64_t inode = 0;
+  std::uint32_t mode = 0;
+  std::int64_t bytes = 0;
+  std::int64_t seconds = 0;  ///< of its last change
+  std::int64_t nanoseconds = 0;
+  bool operator==(const FileId&) const = default;
+};
 
 /// A file that appears under its name only when it is whole: write to temp(), close it, then commit(). Without commit()
 /// it is removed and what had the name stays. Until then it lies in a HiddenFolder beside its target, with the target's
@@ -38,7 +52,8 @@ class TempFile {
   /// Whether the target is a device or a pipe. What it got cannot be undone.
   [[nodiscard]] bool is_device() const { return device_; }
 
-  /// The file gets its name, or goes; what was there is kept aside, to be put back. Throws Error if it cannot.
+  /// The file gets its name, or goes; what was there is kept aside, to be put back. Throws Error if it cannot, as where
+  /// the name is that of a folder, a link or a device by now: nothing but a file is replaced or removed.
   void place();
   /// What was there is needed no more.
   void settle();
@@ -50,6 +65,7 @@ class TempFile {
  private:
   void write_device();
   void rename();
+  void move_aside(bool link);
   void undo();
 
   std::filesystem::path given_;   // as messages call it
@@ -58,6 +74,7 @@ class TempFile {
   std::shared_ptr<HiddenFolder> folder_;
   std::filesystem::path temp_;   // empty if there is nothing to write, or it has its name
   std::filesystem::path aside_;  // what had the target's name, if anything
+  std::optional<FileId> own_;    // of the file that got the target's name
   Way way_;
   bool device_ = false;
   bool placed_ = false;

@@ -19,6 +19,9 @@ TEST_CASE("all names of a file have one real path, and so has what does not exis
   for (const char* name : {"file", "link", "./sub/../file", "sub/round/../file"}) CHECK(real_path(root / name) == file);
   CHECK(real_path(fs::relative(file)) == file);
   CHECK(real_path(root / "sub" / "round" / "new") == root / "sub" / "new");
+  fs::create_symlink("new", root / "first");
+  fs::create_symlink("../first", root / "sub" / "second");
+  CHECK(real_path(root / "sub" / "second") == root / "new");
   CHECK(real_path("new") == fs::current_path() / "new");
 }
 
