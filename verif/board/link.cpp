@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kAckFields = 5;  // expected is the frame's sequence; limit, done, session, flags follow
 constexpr std::size_t kMostSlots = 64;
+// What is taken of the line at once, before the clock is looked at again: a board that never falls silent is no excuse.
+constexpr std::size_t kMostHeard = std::size_t{1} << 16;
 
 std::uint8_t add(std::uint8_t sequence, std::size_t n) { return static_cast<std::uint8_t>((sequence + n) & 0xFF); }
 std::uint8_t behind(std::uint8_t from, std::uint8_t to) { return static_cast<std::uint8_t>((to - from) & 0xFF); }
@@ -30,7 +32,8 @@ void Link::hello() {
   waiting_.clear();
   base_ = add(session_, 1);
   next_ = window_ = 0;
-  done_ = session_;
+  done_ = add(base_, 256 - kMostSlots);  // of what an earlier session sent, so much may be left
+  contradicts_ = false;
   rewound_to_ = -1;
   tries_ = 0;
   reading_ = false;
@@ -55,11 +58,11 @@ void Link::hello() {
     } else if (now >= timer_) {
       if (!heard_) another_try("no answer to HELLO");
       if (heard_ && options_.patience != 0 && now - moved_ >= options_.patience)
-        throw LinkError(LinkFailure::stalled,
-                        "link: stalled: the board does not execute what an earlier session sent it");
+        stalled("the board does not execute what an earlier session sent it");
+      if (heard_ && contradicts_) another_try("the board answers HELLO");
       if (heard_) {
         heard_ = false;  // until the next timer at least one answer must come
-        tries_ = 0;
+        if (!contradicts_) tries_ = 0;
         send({FrameKind::poll, 0, {}});
         timer_ = now + options_.timeout;
       } else {
@@ -181,7 +184,10 @@ void Link::send(const Frame& frame) {
 // Takes all that has come; waits for it until the deadline.
 void Link::listen(std::uint64_t deadline) {
   std::array<std::uint8_t, 512> bytes;
-  while (const std::size_t n = transport_.read(bytes, deadline)) {
+  for (std::size_t all = 0; all < kMostHeard;) {
+    const std::size_t n = transport_.read(bytes, deadline);
+    if (n == 0) return;
+    all += n;
     for (const std::uint8_t byte : std::span(bytes).first(n)) {
       if (const auto frame = reader_.take(byte)) take(*frame);
       statistics_.answers_damaged = reader_.damaged();
@@ -216,7 +222,13 @@ void Link::take_ack(const Frame& frame) {
   if (!greeting_) check_flags(flags);
   // No other frames than those that were sent can have been taken.
   const std::size_t taken = behind(base_, expected);
-  if (taken > waiting_.size() || (taken > 0 && !waiting_[taken - 1].before)) return;
+  const bool sent = taken <= waiting_.size() && (taken == 0 || waiting_[taken - 1].before);
+  // Frames are executed in order, each once, and after they were taken: `done` goes up to `expected`, and never back.
+  // So each answer that counts as progress uses up a frame, and a session ends whatever a board says.
+  if (!sent || behind(done_, done) > behind(done_, expected)) {
+    contradicts_ = true;
+    return;
+  }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(taken));
   next_ -= std::min(next_, taken);
   base_ = expected;
@@ -257,6 +269,7 @@ void Link::check_flags(std::uint8_t flags) const {
 
 void Link::progress() {
   tries_ = 0;
+  contradicts_ = false;
   rewound_to_ = -1;
   moved_ = transport_.now();
   timer_ = moved_ + options_.timeout;
@@ -273,9 +286,9 @@ void Link::timed_out() {
     return;
   }
   if (options_.patience != 0 && heard_ && now - moved_ >= options_.patience)
-    throw LinkError(LinkFailure::stalled, "link: stalled: the board answers, and executes nothing");
-  // Nothing is on its way that could be lost: only silence counts.
-  if (std::exchange(heard_, false))
+    stalled("the board answers, and executes nothing");
+  // Nothing is on its way that could be lost: only silence counts, and answers that cannot be.
+  if (std::exchange(heard_, false) && !contradicts_)
     tries_ = 0;
   else
     another_try("the board is silent");
@@ -284,8 +297,16 @@ void Link::timed_out() {
 
 void Link::another_try(const char* what) {
   if (++tries_ >= options_.tries)
-    throw LinkError(LinkFailure::no_answer, fmt::format("link: no answer: {}, in {} tries of {} ms", what, tries_,
-                                                        static_cast<double>(options_.timeout) / 1000));
+    throw LinkError(LinkFailure::no_answer, fmt::format("link: no answer: {}{}, in {} tries of {} ms", what, blame(),
+                                                        tries_, static_cast<double>(options_.timeout) / 1000));
+}
+
+void Link::stalled(const char* what) const {
+  throw LinkError(LinkFailure::stalled, fmt::format("link: stalled: {}{}", what, blame()));
+}
+
+const char* Link::blame() const {
+  return contradicts_ ? ", and says it has executed frames that it was not sent, or fewer than before" : "";
 }
 
 }  // namespace kage::board

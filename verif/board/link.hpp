@@ -96,6 +96,8 @@ class Link {
   void take_data(const Frame& frame);
   void timed_out();
   void another_try(const char* what);
+  [[noreturn]] void stalled(const char* what) const;
+  [[nodiscard]] const char* blame() const;
   void progress();
   void check_flags(std::uint8_t flags) const;
 
@@ -109,12 +111,13 @@ class Link {
   std::uint8_t session_ = 0;
   std::deque<Sent> waiting_;  // frames that were not acknowledged, the first with the sequence base_
   std::uint8_t base_ = 0;
-  std::size_t next_ = 0;    // the place in waiting_ that is sent next
-  std::size_t window_ = 0;  // how many of waiting_ may be sent
-  std::uint8_t done_ = 0;   // the first sequence that has not been executed
-  std::uint8_t flags_ = 0;  // of the last ACK
-  bool heard_ = false;      // of hello(): an ACK of this session
-  int rewound_to_ = -1;     // the sequence that was last gone back to for a gap
+  std::size_t next_ = 0;      // the place in waiting_ that is sent next
+  std::size_t window_ = 0;    // how many of waiting_ may be sent
+  std::uint8_t done_ = 0;     // the first sequence that has not been executed
+  std::uint8_t flags_ = 0;    // of the last ACK
+  bool heard_ = false;        // of hello(): an ACK of this session
+  bool contradicts_ = false;  // since it last took or executed something, the board has said what cannot be
+  int rewound_to_ = -1;       // the sequence that was last gone back to for a gap
   int tries_ = 0;
   std::uint64_t timer_ = 0;  // when to send again
   std::uint64_t moved_ = 0;  // when the board last took or executed something
