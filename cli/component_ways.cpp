@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "json/foreign_json.hpp"
 #include "kage/error.hpp"
 #include "kage/geometry.hpp"
 
@@ -105,11 +106,12 @@ std::vector<report::WayRecord> ComponentWays::records() const {
   return list;
 }
 
-report::WayRecords ways_of(const StreamFile& file) {
-  const report::Json origin = report::Json::parse(file.origin(), nullptr, false);
-  if (!origin.is_object() || !origin.contains("polyhedra")) return std::nullopt;
-  // Whoever wrote the file: what is not of this form is not taken, and nothing else is copied.
+report::WayRecords ways_of(const StreamFile& file, const std::string& name) {
+  if (file.origin().empty()) return std::nullopt;
+  const auto origin = parse_json<report::Json>(file.origin(), name + ": section ORIG");
+  // Whoever wrote the file: what is JSON and not of this form is not taken.
   try {
+    if (!origin.is_object() || !origin.contains("polyhedra")) return std::nullopt;
     report::WayRecords ways = report::ways_from_json(origin["polyhedra"]);
     const auto frames = static_cast<std::uint64_t>(file.frame_count());
     for (const report::WayRecord& w : ways.value_or(std::vector<report::WayRecord>()))

@@ -55,7 +55,8 @@ class ComponentWays {
   std::vector<Way> ways_;  // by component
 };
 
-/// The ways that a stream file holds (Source::ways()), if it does.
-report::WayRecords ways_of(const StreamFile& file);
+/// The ways that a stream file holds (Source::ways()), if it does. Throws Error that begins with `name` where section
+/// ORIG is no JSON, or nests too deeply.
+report::WayRecords ways_of(const StreamFile& file, const std::string& name);
 
 }  // namespace kage::cli

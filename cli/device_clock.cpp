@@ -4,10 +4,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "json/foreign_json.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 
@@ -15,19 +14,18 @@ namespace kage::cli {
 
 DeviceClock device_clock(const std::string& device, bool front_end) {
   const std::string path = (data_directory() / "constraints/figures.json").string();
-  std::ifstream file(path);
-  if (!file) throw Error(fmt::format("{}: cannot be read", path));
   DeviceClock slowest;
   std::set<std::string> devices;
+  const nlohmann::ordered_json figures = read_json(path);
   try {
-    for (const auto& row : nlohmann::json::parse(file)) {
+    for (const auto& row : figures) {
       devices.insert(row.at("device").get<std::string>());
       const double mhz = row.at("clock_mhz").get<double>();
       if (row.value("front_end", false) && !front_end) continue;
       if (row.at("device") != device || (!slowest.core.empty() && mhz >= slowest.mhz)) continue;
       slowest = {mhz, row.at("core").get<std::string>()};
     }
-  } catch (const nlohmann::json::exception& e) {
+  } catch (const nlohmann::ordered_json::exception& e) {
     throw Error(fmt::format("{}: {}", path, e.what()));
   }
   if (slowest.core.empty())

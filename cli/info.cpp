@@ -166,7 +166,7 @@ int describe_stream(const InfoCommand& o) {
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
   j["units"] = counts.units;
-  const report::WayRecords ways = ways_of(file);
+  const report::WayRecords ways = ways_of(file, o.input);
   j["polyhedra"] = to_json(ways);
   j["bytes"] = file.bytes();
   j["checksum_ok"] = true;  // a wrong one has ended this with an error

@@ -11,6 +11,7 @@
 #include "command.hpp"
 #include "cosim/model/model.hpp"
 #include "file/read_file.hpp"
+#include "json/foreign_json.hpp"
 #include "kage/config.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
@@ -46,19 +47,7 @@ std::string about_fault(const std::string& name) {
 /// What a built-in scene shows: its file says it. Most of a file is behind that, and is not parsed.
 std::string about_scene(const std::string& name) {
   const std::filesystem::path path = data_directory() / "scenes" / (name + ".gltf");
-  struct Enough {};
-  Json asset;
-  std::string key;
-  const auto look = [&](int depth, Json::parse_event_t event, Json& value) {
-    if (depth == 1 && event == Json::parse_event_t::key) key = value.get<std::string>();
-    if (depth != 1 || event != Json::parse_event_t::object_end || key != "asset") return true;
-    asset = value;
-    throw Enough();
-  };
-  try {
-    const Json whole = Json::parse(read_file(path), look, false);  // thrown through, where there is an asset
-  } catch (const Enough&) {
-  }
+  const Json asset = json_member(read_file(path), "asset", path.string());
   const Json about = asset.is_object() ? asset.value("/extras/kage/about"_json_pointer, Json()) : Json();
   if (!about.is_string()) throw Error(fmt::format("{}: has no asset.extras.kage.about", path.string()));
   return about.get<std::string>();

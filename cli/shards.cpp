@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <fstream>
 
 #include "ci.hpp"
 #include "cosim/report/record_keys.hpp"
+#include "json/foreign_json.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "results.hpp"
@@ -61,10 +61,7 @@ void check_frames(const ShardFile& f, const report::SceneRecord& s, std::int64_t
 }
 
 ShardFile read(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(fmt::format("{}: cannot be read", file));
-  const Json json = Json::parse(in, nullptr, false);
-  if (json.is_discarded()) throw Error(fmt::format("{}: not JSON", file));
+  const Json json = read_json(file);
   ShardFile f;
   f.file = file;
   try {

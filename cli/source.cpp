@@ -164,7 +164,7 @@ void Source::record(int index, const FrameParts& parts) {
 }
 
 report::WayRecords Source::ways() const {
-  if (stream_) return ways_of(*stream_);
+  if (stream_) return stream_ways_;
   if (config_.config.units == 0) return std::nullopt;
   return ways_.records();
 }

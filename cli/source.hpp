@@ -140,6 +140,7 @@ class Source : public FrameSource {
   std::vector<std::string> notes_;
   std::vector<std::string> degraded_;
   std::shared_ptr<const StreamFile> stream_;
+  report::WayRecords stream_ways_;
   std::shared_ptr<const Scene> scene_;
   std::optional<verif::RandomFrames> random_;
   std::unique_ptr<Progress> progress_;  // of the order's build; a share is silent

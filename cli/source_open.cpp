@@ -128,6 +128,7 @@ void Source::open_stream(const Options& options) {
     throw Error(fmt::format("{}: --max-fragments: a stream has its fragments already", options.input));
   guard_mapped(options.input);
   stream_ = std::make_shared<const StreamFile>(options.input);
+  stream_ways_ = ways_of(*stream_, options.input);
   open_frames();
   name_ = plain_name(options.input);
   frames_ = stream_->frame_count();

@@ -8,6 +8,8 @@
 #include <map>
 
 #include "command.hpp"
+#include "json/foreign_json.hpp"
+#include "kage/error.hpp"
 #include "signals.hpp"
 #include "standard_files.hpp"
 #include "text.hpp"
@@ -29,7 +31,7 @@ Json look_json(const trade::SweepPoint& p) {
 
 /// A scene's name as rows, pages and plots have it: what of it is no UTF-8 is replaced, as in every JSON.
 std::string readable(const std::string& name) {
-  return Json::parse(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace)).get<std::string>();
+  return parse_json<Json>(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace), name).get<std::string>();
 }
 
 Json row_of(const SweptScene& s, std::size_t point, const Json& measured) {
@@ -178,8 +180,14 @@ Sweep::Place Sweep::place_of(const Entry& e) {
 }
 
 bool Sweep::take_kept(Entry& e, const Place& place) const {
-  if (place.kept) e.row = row_of(scenes_[e.scene], e.point, Json::parse(*place.kept));
-  return place.kept.has_value();
+  if (!place.kept) return false;
+  const std::string name = fmt::format("{}: table run, row {}", o_.store, place.key);
+  try {
+    e.row = row_of(scenes_[e.scene], e.point, parse_json<Json>(*place.kept, name));
+  } catch (const Json::exception&) {
+    throw Error(fmt::format("{}: not what a row of this kage has", name));
+  }
+  return true;
 }
 
 void Sweep::prepare(Entry& e) {

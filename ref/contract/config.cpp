@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <bit>
 #include <cctype>
 #include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "contract/config_text.hpp"
@@ -74,15 +76,29 @@ Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = 
   return config;
 }
 
+/// What a text holds; `where` opens the message of an Error. yaml-cpp keeps a limit of depth itself.
+YAML::Node parsed_yaml(const std::string& text, const std::string& where) {
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::DeepRecursion& e) {
+    throw Error(fmt::format("{}: line {}: lists nest too deeply", where, e.mark.line + 1));
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: line {}: {}", where, e.mark.line + 1, e.msg));
+  }
+}
+
+// Bytes of a configuration's file: fifty times what rtl/defs/configs.yaml has.
+constexpr std::size_t kYamlBytes = std::size_t{1} << 18;
+
 YAML::Node read_yaml(const std::string& path) {
   check_regular(path);
-  try {
-    return YAML::LoadFile(path);
-  } catch (const YAML::BadFile&) {
-    throw Error(fmt::format("{}: cannot be read", path));
-  } catch (const YAML::Exception& e) {
-    throw Error(fmt::format("{}: line {}: {}", path, e.mark.line + 1, e.msg));
-  }
+  std::ifstream in(path, std::ios::binary);
+  std::string text(kYamlBytes + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!in && !in.eof()) throw Error(fmt::format("{}: cannot be read", path));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kYamlBytes) throw Error(fmt::format("{}: more than {} bytes: no configuration", path, kYamlBytes));
+  return parsed_yaml(text, path);
 }
 
 }  // namespace
@@ -98,11 +114,7 @@ bool names(std::string_view expression, std::string_view parameter) {
 }
 
 Config config_from_text(const std::string& text, const std::string& where) {
-  try {
-    return from_yaml(YAML::Load(text), where);
-  } catch (const YAML::Exception& e) {
-    throw Error(fmt::format("{}: configuration, line {}: {}", where, e.mark.line + 1, e.msg));
-  }
+  return from_yaml(parsed_yaml(text, where + ": configuration"), where);
 }
 
 void validate(const Config& config, const std::string& where) {
@@ -128,6 +140,10 @@ std::vector<NamedConfig> named_configs() {
 }
 
 NamedConfig load_config(const std::string& name_or_file) {
+  // It is printed, and a line that begins with it may be a command to whoever reads the output, as GitHub does.
+  if (std::any_of(name_or_file.begin(), name_or_file.end(),
+                  [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }))
+    throw Error(fmt::format("{}: a configuration's name holds no control characters", name_or_file));
   const auto named = named_configs();
   for (const NamedConfig& n : named)
     if (n.name == name_or_file) return n;

@@ -2,6 +2,7 @@
 #include "gltf_file.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -10,6 +11,7 @@
 
 #include "file/base64.hpp"
 #include "file/extension.hpp"
+#include "json/foreign_json.hpp"
 #include "kage/error.hpp"
 #include "notes.hpp"
 
@@ -29,7 +31,7 @@ std::uint32_t little(const std::uint8_t* p) {
 
 Bytes read_bytes(const std::filesystem::path& path, std::uint64_t most) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) return {};
+  if (!in) throw Error(path.string() + ": cannot be read: " + std::strerror(errno));
   Bytes bytes;
   constexpr std::size_t kChunk = std::size_t{1} << 20;
   while (in && bytes.size() < most) {
@@ -144,13 +146,9 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name, bool all
     }
     text = Bytes(text.begin() + 20, text.begin() + static_cast<std::ptrdiff_t>(next));
   }
-  try {
-    set_root(Json::parse(text.begin(), text.end()));
-  } catch (const Json::parse_error& e) {
-    throw Error(this->name() + ": byte " + std::to_string(e.byte) + ": not JSON, or cut off");
-  } catch (const Json::exception& e) {
-    throw Error(this->name() + ": not JSON: " + cause_of(e.what()));
-  }
+  // Buffers may be in the text, so its size is limited as that of any scene: by the reader's memory.
+  set_root(parse_json<Json>({reinterpret_cast<const char*>(text.data()), text.size()}, this->name(),
+                            std::numeric_limits<std::size_t>::max()));
   if (!root().is_object()) fail("JSON", "the outermost value is not an object");
   const Json& asset = object(root(), "asset", "JSON");
   const std::string version = this->text(asset, "version", "asset");

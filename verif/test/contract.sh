@@ -25,6 +25,9 @@ refuse_whole() {
   found=$(grep -rlPz --include='*.cpp' --include='*.hpp' "$pattern" "$@" | grep -vE "^($own_reading)" | xargs -r grep -L "$generated" || true)
   [ -z "$found" ] || { echo "$what:"; echo "$found"; failures=1; }
 }
+json_rooms="cli $(find ref verif -mindepth 1 -maxdepth 1 -type d ! -path ref/json ! -path verif/test)" # tests read what they like
+# shellcheck disable=SC2086
+refuse 'JSON is parsed by parse_json(), read_json(), json_member() of ref/json' '[Jj]son(::|\.)(parse|accept|sax_parse|from_(cbor|msgpack|bson|ubjson|bjdata))\b|>> *[a-z_]*json\b' 'Json whole = Json::parse(in, nullptr, false);' $json_rooms
 refuse 'a header is read by FrameHeader' '(words|header|head|frame|h|w|a|b|held|small|least)_?\[[0-4]\][U)]* *(>>|&) *(16|0x[fF]{4})' 'width = words_[1] & 0xFFFFU;' ref verif cli
 refuse "a token's kind and length are read by kind_of(), Layout::words_of()" '(words?|whole|token|body|first|rest|event|\bt|\bw)_?(\[[^]]*\]*\]|\.front\(\))? *& *(15|0[xX]0*[fF])[uU]?\b' 'const auto kind = static_cast<Kind>(words.front() & 15U);' ref verif cli
 refuse 'a value of an event has a name (stage_values.hpp)' 'value\[[0-9]+\]' 'a.value[11] != 0' verif/cosim cli

@@ -4,14 +4,14 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "json/foreign_json.hpp"
 #include "kage/config.hpp"
+#include "kage/error.hpp"
 
 namespace kage::trade {
 
@@ -29,10 +29,10 @@ void keep_core(const std::filesystem::path& path, const nlohmann::ordered_json& 
 template <class Read>
 std::optional<std::invoke_result_t<Read, const nlohmann::ordered_json&>> kept_core(const std::filesystem::path& path,
                                                                                    Read read) {
-  std::ifstream file(path);
-  if (!file) return std::nullopt;
   try {
-    return read(nlohmann::ordered_json::parse(file));
+    return read(read_json(path));
+  } catch (const Error&) {
+    return std::nullopt;
   } catch (const nlohmann::ordered_json::exception&) {
     return std::nullopt;
   }

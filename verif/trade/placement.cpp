@@ -8,7 +8,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
 #include <system_error>
@@ -17,6 +16,7 @@
 
 #include "cosim/model/process.hpp"
 #include "file/read_file.hpp"
+#include "json/foreign_json.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "trade/kept_core.hpp"
@@ -96,7 +96,7 @@ Json to_json(const Placement& placement) {
 /// Reads what `tools/fpga --core-only --json` has written.
 Placement read_figures(const fs::path& path) {
   try {
-    const Json j = Json::parse(read_file(path));
+    const Json j = read_json(path);
     Placement out;
     if (j.at("clock_mhz").is_null())
       out.not_placed = j.at("not_placed").get<std::string>();

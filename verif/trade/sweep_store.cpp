@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <mutex>
 #include <string_view>
+#include <utility>
+#include <vector>
 
+#include "cosim/model/sha256.hpp"
 #include "kage/error.hpp"
 
 namespace kage::trade {
@@ -18,18 +22,45 @@ constexpr int kApplication = 0x4B414745;
 // Another program's transaction is waited for so long.
 constexpr int kBusyMilliseconds = 60000;
 
-constexpr const char* kSchema =
+// `sum`: sum_of() of the columns before it, so that a row whose bytes have changed is told from one that was kept.
+constexpr const char* kRunTable =
     "CREATE TABLE run (key TEXT PRIMARY KEY, scene TEXT NOT NULL, point TEXT NOT NULL, row TEXT NOT NULL, "
-    "build TEXT NOT NULL, faces TEXT NOT NULL, tools TEXT NOT NULL, "
-    "made TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP) WITHOUT ROWID;"
+    "build TEXT NOT NULL, faces TEXT NOT NULL, tools TEXT NOT NULL, sum TEXT NOT NULL, "
+    "made TEXT NOT NULL DEFAULT CURRENT_TIMESTAMP) WITHOUT ROWID";
+constexpr const char* kClocksTable =
     "CREATE TABLE clocks (key TEXT PRIMARY KEY, cycles INTEGER NOT NULL, foretold INTEGER NOT NULL, "
-    "seconds REAL NOT NULL) WITHOUT ROWID;";
+    "seconds REAL NOT NULL, sum TEXT NOT NULL) WITHOUT ROWID";
+
+/// What a row's columns come to.
+std::string sum_of(const std::vector<std::string>& columns) {
+  cosim::Sha256 hash;
+  for (const std::string& text : columns) hash.add(text);
+  return hash.take();
+}
+
+std::string sum_of(const std::string& key, const ClockSample& sample) {
+  return sum_of(
+      {key, std::to_string(sample.cycles), std::to_string(sample.foretold), fmt::format("{}", sample.seconds)});
+}
 
 /// A file's name as SQLite takes it for one: ":memory:" would be none.
 std::string sqlite_name(const std::filesystem::path& file) { return std::filesystem::absolute(file).string(); }
 
 [[noreturn]] void damaged(const std::string& file, const std::string& how) {
   throw Error(fmt::format("{}: the store is damaged, so begin another: {}", file, how));
+}
+
+/// What a damaged store calls something, on one line: its name may be of any bytes, and as long as it likes.
+std::string plain_text(std::string name) {
+  constexpr std::size_t kShown = 64;
+  name.resize(std::min(name.size(), kShown));
+  for (char& c : name)
+    if (c < ' ' || c > '~') c = '?';
+  return name;
+}
+
+[[noreturn]] void damaged_row(const std::string& file, const char* table, const std::string& key) {
+  damaged(file, fmt::format("table {}, row {}: its checksum differs", table, plain_text(key)));
 }
 
 /// Throws what has just gone wrong.
@@ -137,12 +168,43 @@ struct SweepStore::Data {
     }
   }
 
+  /// A view or a trigger in place of a table might never end, or write.
+  void check_schema() const {
+    // SQLite's own tables, as of ANALYZE, have names that no other table may have.
+    Statement s(db, file,
+                "SELECT name, sql FROM sqlite_master WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\' ORDER BY name");
+    for (const auto& [name, sql] : {std::pair{"clocks", kClocksTable}, {"run", kRunTable}})
+      if (!s.step() || s.text(0) != name || s.text(1) != sql)
+        damaged(file, fmt::format("{} is not the table that kage makes", name));
+    if (s.step()) damaged(file, fmt::format("it has {}, which kage does not make", plain_text(s.text(0))));
+  }
+  /// A row of `run`, taken out of the statement's columns 0 to 7.
+  void check_run(const Statement& s) const {
+    std::vector<std::string> columns;
+    for (int i = 0; i < 7; ++i) columns.push_back(s.text(i));
+    if (sum_of(columns) != s.text(7)) damaged_row(file, "run", columns.front());
+  }
+  /// A row of `clocks`, of the statement's columns 0 to 4.
+  [[nodiscard]] ClockSample checked_clocks(const Statement& s) const {
+    const ClockSample sample{static_cast<std::uint64_t>(s.number(1)), static_cast<std::uint64_t>(s.number(2)),
+                             s.real(3)};
+    if (sum_of(s.text(0), sample) != s.text(4)) damaged_row(file, "clocks", s.text(0));
+    return sample;
+  }
+  void check_rows() const {
+    for (Statement s(db, file, "SELECT key, scene, point, row, build, faces, tools, sum FROM run"); s.step();)
+      check_run(s);
+    for (Statement s(db, file, "SELECT key, cycles, foretold, seconds, sum FROM clocks"); s.step();)
+      (void)checked_clocks(s);
+  }
+
   void check_version() {
     if (number("PRAGMA application_id") != kApplication)
       throw Error(fmt::format("{}: no store of kage sweep, though an SQLite file", file));
     const std::int64_t version = number("PRAGMA user_version");
     if (version != kVersion)
       throw Error(fmt::format("{}: a store of version {}, and this kage has {}", file, version, kVersion));
+    check_schema();
     Statement s(db, file, "PRAGMA quick_check(1)");
     const std::string found = s.step() ? s.text(0) : "nothing";
     if (found != "ok") damaged(file, found.substr(0, found.find('\n')));
@@ -157,7 +219,8 @@ SweepStore::SweepStore(const std::filesystem::path& file) : data_(std::make_uniq
   } else {
     d.at_once([&] {
       if (d.number("SELECT count(*) FROM sqlite_master") > 0) return;  // another program was first
-      d.execute(kSchema);
+      d.execute(kRunTable);
+      d.execute(kClocksTable);
       d.execute(fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {}", kApplication, kVersion).c_str());
     });
     d.check_version();
@@ -170,19 +233,22 @@ SweepStore::~SweepStore() = default;
 
 std::optional<std::string> SweepStore::run(const std::string& key) {
   const std::lock_guard lock(data_->mutex);
-  Statement s(data_->db, data_->file, "SELECT row FROM run WHERE key = ?");
+  Statement s(data_->db, data_->file, "SELECT key, scene, point, row, build, faces, tools, sum FROM run WHERE key = ?");
   if (!s.bind(key).step()) return std::nullopt;
-  return s.text(0);
+  data_->check_run(s);
+  return s.text(3);
 }
 
 void SweepStore::keep_run(const std::string& key, const std::string& scene, const std::string& point, const MadeOf& of,
                           const std::string& row) {
   const std::lock_guard lock(data_->mutex);
   data_->at_once([&] {
-    Statement s(
-        data_->db, data_->file,
-        "INSERT OR REPLACE INTO run (key, scene, point, row, build, faces, tools) VALUES (?, ?, ?, ?, ?, ?, ?)");
-    s.bind(key).bind(scene).bind(point).bind(row).bind(of.build).bind(of.scene).bind(of.tools).step();
+    Statement s(data_->db, data_->file,
+                "INSERT OR REPLACE INTO run (key, scene, point, row, build, faces, tools, sum) VALUES (?, ?, ?, ?, ?, "
+                "?, ?, ?)");
+    const std::vector<std::string> columns{key, scene, point, row, of.build, of.scene, of.tools};
+    for (const std::string& text : columns) s.bind(text);
+    s.bind(sum_of(columns)).step();
   });
 }
 
@@ -208,17 +274,17 @@ std::string SweepStore::old(const std::string& scene, const std::string& point, 
 
 std::optional<ClockSample> SweepStore::clocks(const std::string& key) {
   const std::lock_guard lock(data_->mutex);
-  Statement s(data_->db, data_->file, "SELECT cycles, foretold, seconds FROM clocks WHERE key = ?");
+  Statement s(data_->db, data_->file, "SELECT key, cycles, foretold, seconds, sum FROM clocks WHERE key = ?");
   if (!s.bind(key).step()) return std::nullopt;
-  return ClockSample{static_cast<std::uint64_t>(s.number(0)), static_cast<std::uint64_t>(s.number(1)), s.real(2)};
+  return data_->checked_clocks(s);
 }
 
 void SweepStore::keep_clocks(const std::string& key, const ClockSample& sample) {
   const std::lock_guard lock(data_->mutex);
   data_->at_once([&] {
     Statement s(data_->db, data_->file,
-                "INSERT OR REPLACE INTO clocks (key, cycles, foretold, seconds) VALUES (?, ?, ?, ?)");
-    s.bind(key).bind(sample.cycles).bind(sample.foretold).bind(sample.seconds).step();
+                "INSERT OR REPLACE INTO clocks (key, cycles, foretold, seconds, sum) VALUES (?, ?, ?, ?, ?)");
+    s.bind(key).bind(sample.cycles).bind(sample.foretold).bind(sample.seconds).bind(sum_of(key, sample)).step();
   });
 }
 
@@ -230,6 +296,7 @@ void SweepStore::check(const std::filesystem::path& file) {
   Data d(file);
   d.open(0);
   d.check_version();
+  d.check_rows();
 }
 
 int SweepStore::absorb(const std::filesystem::path& other) {

@@ -24,7 +24,7 @@ struct MadeOf {
 class SweepStore {
  public:
   /// The version of the schema below.
-  static constexpr int kVersion = 2;
+  static constexpr int kVersion = 3;
 
   /// Opens a store, or makes one. Throws Error if the file is no store, or one of another version, or damaged; then it
   /// is left as it is.
@@ -33,7 +33,7 @@ class SweepStore {
   SweepStore(const SweepStore&) = delete;
   SweepStore& operator=(const SweepStore&) = delete;
 
-  /// A run's row, JSON as it was kept.
+  /// A run's row, JSON as it was kept. Throws Error that names file and row if it is not what was kept.
   [[nodiscard]] std::optional<std::string> run(const std::string& key);
   /// Keeps a run in a transaction of its own: it is there whole, or not at all, whatever happens next.
   void keep_run(const std::string& key, const std::string& scene, const std::string& point, const MadeOf& of,
@@ -45,10 +45,12 @@ class SweepStore {
   [[nodiscard]] std::optional<ClockSample> clocks(const std::string& key);
   void keep_clocks(const std::string& key, const ClockSample& sample);
 
-  /// Throws Error if a file that is there is no store, or one of another version, or damaged. It is left as it is.
+  /// Throws Error if a file that is there is no store, or one of another version, or damaged, a row of it
+  /// among what may be. It is left as it is.
   static void check(const std::filesystem::path& file);
 
-  /// Takes all rows of another store that are not here. Returns how many runs those were.
+  /// Takes all rows of another store that are not here. Returns how many runs those were. Throws Error, and takes none,
+  /// if one of the other's is not what was kept.
   int absorb(const std::filesystem::path& other);
   [[nodiscard]] int runs();
 

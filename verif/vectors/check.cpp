@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "cosim/model/sha256.hpp"
-#include "file/read_file.hpp"
+#include "json/foreign_json.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "vectors/capture.hpp"
@@ -87,13 +87,7 @@ Pack checked_pack(const std::filesystem::path& folder, Check what, const std::fu
   const std::filesystem::path manifest = folder / kManifest;
   std::error_code e;
   if (!std::filesystem::is_regular_file(manifest, e)) throw Error(manifest.string() + ": is not there: no pack");
-  Json json;
-  try {
-    json = Json::parse(read_file(manifest));
-  } catch (const Json::exception& wrong) {
-    throw Error(fmt::format("{}: not JSON: {}", manifest.string(), wrong.what()));
-  }
-  Pack pack = pack_of(json, manifest.string());
+  Pack pack = pack_of(read_json(manifest), manifest.string());
   for (const PackFile& file : pack.files)
     if (std::filesystem::path(file.name).filename() != file.name)
       throw Error(fmt::format("{}: {} is a file outside the pack", manifest.string(), file.name));

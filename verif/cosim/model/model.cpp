@@ -2,6 +2,7 @@
 #include "cosim/model/model.hpp"
 
 #include <fmt/format.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -83,6 +84,16 @@ void copy_sources(const fs::path& data, const std::vector<fs::path>& files, cons
   }
 }
 
+/// A model is a program: where none may run, that is told, and not what the loader says of it.
+void refuse_no_exec(const fs::path& folder) {
+  struct statvfs state {};
+  if (statvfs(folder.c_str(), &state) == 0 && (state.f_flag & ST_NOEXEC) != 0)
+    throw Error(
+        fmt::format("{}: on its file system nothing may be run (noexec), and RTL models are kept there: set "
+                    "XDG_CACHE_HOME to a folder elsewhere",
+                    folder.string()));
+}
+
 HiddenFolder work_folder(const fs::path& folder) {
   try {
     return HiddenFolder(folder);
@@ -114,6 +125,8 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
                                    "-u",
                                    "KAGE_RTL_DIR",
                                    "TMPDIR=" + (work / "tmp").string(),
+                                   "python3",
+                                   "-B",  // the folder may be nobody's to write to
                                    (work / "source/verif/cosim/model/driver/build.py").string(),
                                    (work / "model.so").string()};
   for (const ParamInfo& p : kParams) command.push_back(fmt::format("{}={}", p.name, config.*(p.member)));
@@ -177,6 +190,7 @@ void build(const fs::path& work, const fs::path& data, const Config& config, con
 Model find_model(const Config& config, const ModelOptions& options) {
   const fs::path data = data_directory();
   const ModelCache cache;
+  refuse_no_exec(cache.folder());
   const ModelSources sources = model_sources(data, options);
   std::string damage;
   // A model that is there and whole.
@@ -198,7 +212,7 @@ Model find_model(const Config& config, const ModelOptions& options) {
   const ModelTools tools = model_tool_versions(options, true);
   const std::string key = model_key(work / "source", sources, config, options, tools);
   const Waiting waiting(options.progress);
-  const Lock lock(cache.lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
+  Lock lock(cache.lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
   while (!lock.try_lock()) waiting.wait();
   if (find(key)) return {.library = cache.library(key)};  // another program has built it
   build(work, data, config, options, waiting, cache.log(key));

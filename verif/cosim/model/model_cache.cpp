@@ -15,6 +15,7 @@
 #include "cosim/model/lock.hpp"
 #include "cosim/model/trust.hpp"
 #include "file/output_file.hpp"
+#include "json/foreign_json.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
@@ -45,8 +46,12 @@ Sum sum_of(int fd, const fs::path& path) {
 Json manifest_of(const fs::path& path) {
   const Descriptor file(open_own_file(path));
   if (file.get() < 0) return nullptr;
-  Json manifest = Json::parse(text_of(file.get(), path), nullptr, false);
-  return manifest.is_object() ? manifest : Json();
+  try {
+    Json manifest = parse_json<Json>(text_of(file.get(), path), path.string());
+    return manifest.is_object() ? manifest : Json();
+  } catch (const Error&) {
+    return nullptr;
+  }
 }
 
 void sync(int fd, const fs::path& path) {
@@ -124,7 +129,7 @@ std::vector<CachedModel> ModelCache::list() const {
 }
 
 bool ModelCache::remove(const std::string& key) const {
-  const Lock held(lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
+  Lock held(lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
   if (!held.try_lock()) return false;
   std::error_code ec;
   for (const fs::path& file : {library(key), manifest(key), log(key), lock(key)}) fs::remove(file, ec);

@@ -138,14 +138,26 @@ grep -qF '# 0 measured now' stdout || fail "$(tail -1 stdout)"
 # Rows that are in the store of another build, scene or tool are measured anew, and a line says how many and why.
 cp part1.sqlite old.sqlite
 python3 - <<'PY' || fail "the store is not what this test edits"
-import sqlite3
+import hashlib, sqlite3, struct
 db = sqlite3.connect("old.sqlite")
+def sum_of(*columns):
+    return hashlib.sha256(b"".join(struct.pack("<Q", len(c.encode())) + c.encode() for c in columns)).hexdigest()
+db.create_function("sum_of", 7, sum_of)
+columns = "key, scene, point, row, build, faces, tools"
+assert not db.execute(f"select 1 from run where sum != sum_of({columns})").fetchall()
 points = [key for (key,) in db.execute("select key from run order by key")]
 assert len(points) == 4
 db.execute("update run set key = 'a' || key, build = 'kage 0.0.1' where key != ?", points[:1])
 db.execute("update run set key = 'b' || key, faces = 'others' where key = ?", points[:1])
+db.execute(f"update run set sum = sum_of({columns})")
 db.commit()
 PY
+cp old.sqlite changed.sqlite
+python3 -c 'import sqlite3; db = sqlite3.connect("changed.sqlite"); db.execute("update run set row = replace(row, 1, 2)"); db.commit()'
+trouble 'changed.sqlite: the store is damaged, so begin another: table run, row ' "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --take changed.sqlite --store no.sqlite
+cp part1.sqlite changed.sqlite
+python3 -c 'import sqlite3; db = sqlite3.connect("changed.sqlite"); db.execute("update run set row = \"{\""); db.commit()'
+trouble 'changed.sqlite: the store is damaged, so begin another: table run, row ' "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --shard 1/2 --store changed.sqlite --resume
 expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --take old.sqlite --take part2.sqlite --store anew.sqlite
 grep -qF '# 4 measured now' stdout || fail "$(tail -1 stdout)"
 cat >want <<'EOF'

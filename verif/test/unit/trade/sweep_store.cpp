@@ -2,6 +2,7 @@
 // The store of a sweep: what is kept stays, whenever its program is killed; what is no store is refused and left alone.
 #include "trade/sweep_store.hpp"
 
+#include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -31,6 +32,14 @@ std::string refused(const std::filesystem::path& file) {
 
 void write(const std::filesystem::path& file, const std::string& text) {
   std::ofstream(file, std::ios::binary) << text;
+}
+
+/// What another program does to a store.
+void run_sql(const std::filesystem::path& file, const std::string& sql) {
+  sqlite3* db = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &db) == SQLITE_OK);
+  CHECK(sqlite3_exec(db, sql.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(db);
 }
 
 const MadeOf kMade{.build = "build", .scene = "faces", .tools = "tools"};
@@ -118,8 +127,8 @@ TEST_CASE("what is no store is refused, and left as it is") {
   };
   check(std::string(5000, 'x'), "no store of kage sweep: it is no SQLite file");
   std::string other = good;
-  other[63] = 3;  // the version, in SQLite's header
-  check(other, "a store of version 3, and this kage has 2");
+  other[63] = 4;  // the version, in SQLite's header
+  check(other, "a store of version 4, and this kage has 3");
   other = good;
   other[68] = 0;  // the application
   check(other, "no store of kage sweep, though an SQLite file");
@@ -129,6 +138,76 @@ TEST_CASE("what is no store is refused, and left as it is") {
   check(good.substr(0, good.size() / 2), "the store is damaged, so begin another: ");
   CHECK(refused(folder.path / "no/such/a.sqlite") == (folder.path / "no/such/a.sqlite: no such folder").string());
   CHECK(refused(folder.path) == folder.path.string() + ": a folder, and no store");
+}
+
+TEST_CASE("a row that is not what was kept is told by file and row, by whoever reads it") {
+  const verif::TempFolder folder("sweep-row");
+  const auto file = folder.path / "a.sqlite";
+  const ClockSample sample{.cycles = 12345678, .foretold = 3, .seconds = 0.5};
+  // Whatever column changes, even to another of the right form: SQLite itself sees nothing.
+  for (const std::string change :
+       {"run SET row = '{\"a\":2}'", "run SET row = '{'", "run SET row = x'00'", "run SET scene = 'glass'",
+        "run SET point = 'b'", "run SET build = 'b'", "run SET faces = 'b'", "run SET tools = 'b'", "run SET sum = 'b'",
+        "clocks SET cycles = 12345679", "clocks SET foretold = 4", "clocks SET seconds = 0.25",
+        "clocks SET seconds = 'x'", "clocks SET sum = ''"}) {
+    CAPTURE(change);
+    std::filesystem::remove(file);
+    {
+      SweepStore store(file);
+      store.keep_run("cafe", "courtyard", "point", kMade, "{\"a\":1}");
+      store.keep_clocks("cafe", sample);
+    }
+    run_sql(file, "UPDATE " + change);
+    const std::string table = change.substr(0, change.find(' '));
+    const std::string text = file.string() + ": the store is damaged, so begin another: table " + table + ", row cafe";
+    SweepStore store(file);
+    const auto said = [&](auto read) {
+      try {
+        read();
+      } catch (const Error& e) {
+        return std::string(e.what());
+      }
+      return std::string();
+    };
+    CHECK_THAT(said([&] { table == "run" ? (void)store.run("cafe") : (void)store.clocks("cafe"); }),
+               Catch::Matchers::ContainsSubstring(text));
+    SweepStore whole(folder.path / "whole.sqlite");
+    CHECK_THAT(said([&] { whole.absorb(file); }), Catch::Matchers::ContainsSubstring(text));
+    CHECK(whole.runs() == 0);
+  }
+}
+
+TEST_CASE("a store with a view, a trigger or a table that kage does not make is refused, and ends") {
+  const verif::TempFolder folder("sweep-schema");
+  const auto file = folder.path / "a.sqlite";
+  const std::string endless = "WITH RECURSIVE n(i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT ";
+  for (const auto& [sql, text] : std::vector<std::pair<std::string, std::string>>{
+           {"DROP TABLE run; CREATE VIEW run AS " + endless +
+                "'k' AS key, 's' AS scene, 'p' AS point, '{}' AS row, 'b' AS build, 'f' AS faces, 't' AS tools, "
+                "'' AS sum, '' AS made FROM n",
+            "run is not the table that kage makes"},
+           {"DROP TABLE clocks; CREATE VIEW clocks AS " + endless +
+                "'k' AS key, i AS cycles, i AS foretold, 1.0 AS seconds, '' AS sum FROM n",
+            "clocks is not the table that kage makes"},
+           {"DROP TABLE clocks", "clocks is not the table that kage makes"},
+           {"CREATE TRIGGER z AFTER INSERT ON run BEGIN DELETE FROM run; END", "it has z, which kage does not make"},
+           {"CREATE TABLE z (a)", "it has z, which kage does not make"},
+           {"CREATE TABLE \"z\n::error::\" (a)", "it has z?::error::, which kage does not make"}}) {
+    CAPTURE(sql);
+    std::filesystem::remove(file);
+    { const SweepStore store(file); }
+    run_sql(file, sql);
+    CHECK_THAT(refused(file), Catch::Matchers::ContainsSubstring(text));
+    SweepStore whole(folder.path / "whole.sqlite");
+    CHECK_THROWS_AS(whole.absorb(file), Error);
+  }
+  std::filesystem::remove(file);
+  {
+    SweepStore store(file);
+    store.keep_run("1", "courtyard", "point", kMade, "{}");
+  }
+  run_sql(file, "ANALYZE");
+  CHECK(SweepStore(file).run("1") == "{}");
 }
 
 TEST_CASE("a file that rows are to be taken of is asked whether it is a store, and none is made of it") {
