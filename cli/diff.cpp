@@ -54,14 +54,14 @@ int run(const DiffCommand& o) {
     if (sort != Sort::folder) throw Error(fmt::format("{}: is no folder: --bless takes two", o.b));
     refuse(o, "--bless, which is exact",
            {"--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--mask", "--ignore-alpha",
-            "--perceptual", "--out", "--blink", "--part", "--junit"});
+            "--perceptual", "--max-memory", "--out", "--blink", "--part", "--junit"});
     return bless_folder(o);
   }
   refuse(o, "a comparison without --bless", {"--prune", "--dry-run"});
   if (sort == Sort::stream) {
     refuse(o, "streams, which are compared exactly",
            {"--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--mask", "--ignore-alpha",
-            "--perceptual", "--out", "--blink", "--part", "--exclude"});
+            "--perceptual", "--max-memory", "--out", "--blink", "--part", "--exclude"});
     return diff_two_streams(o);
   }
   if (sort != Sort::folder) refuse(o, "two files", {"--exclude"});
@@ -115,6 +115,11 @@ void add_thresholds(CLI::App& c, DiffOptions& limits) {
       "--perceptual", limits.perceptual,
       "say too how people see the difference: FLIP (mean and largest), and how many pixels OpenImageIO's perceptual "
       "measure tells apart; they decide nothing");
+  c.add_option_function<std::uint64_t>(
+       "--max-memory", [&limits](std::uint64_t mib) { limits.max_bytes = mib << 20U; },
+       "refuse pictures that take more memory than so many MiB, default half of what there is")
+      ->check(whole_number(1, 1 << 30))
+      ->type_name("MIB");
   c.add_option("--part", limits.part,
                "of files that hold several pictures, as a multi-part EXR: the number of one, from 0")
       ->check(whole_number(0, std::numeric_limits<int>::max()))

@@ -9,7 +9,9 @@
 #include <limits>
 
 #include "image/flip_metric.hpp"
+#include "image/memory.hpp"
 #include "image/picture.hpp"
+#include "image/picture_lines.hpp"
 #include "image/regions.hpp"
 #include "image/sample.hpp"
 #include "image/views.hpp"
@@ -39,35 +41,44 @@ struct Line {
 
 class Comparison {
  public:
-  Comparison(const Picture& a, const Picture& b, const DiffOptions& options, DiffResult& result, Image* heat)
-      : a_(a),
-        b_(b),
+  /// `background`: of the heat map, if there is one.
+  Comparison(PictureLines& a, PictureLines& b, const DiffOptions& options, DiffResult& result, Image* heat,
+             const Picture* background)
+      : a_(a.head()),
+        lines_a_(a),
+        lines_b_(b),
         options_(options),
         result_(result),
         heat_(heat),
-        box_(options.region.value_or(Box{0, 0, a.width, a.height})),
-        line_(static_cast<std::size_t>(a.width)),
-        finder_(a.width, a.height) {}
+        box_(options.region.value_or(Box{0, 0, a_.width, a_.height})),
+        line_(static_cast<std::size_t>(a_.width)),
+        finder_(a_.width, kMaxRegions) {
+    if (heat == nullptr) return;
+    background_ = view_of(*background);
+    *heat = Image(a_.width, a_.height, 3);
+  }
 
   void run() {
     for (const Picture::Channel& c : a_.channels) result_.floats = result_.floats || is_float(c.sample);
-    if (heat_ != nullptr) {
-      background_ = view_of(a_);
-      *heat_ = Image(a_.width, a_.height, 3);
-    }
     const std::size_t bytes = static_cast<std::size_t>(a_.width) * a_.pixel_bytes;
     for (int y = 0; y < a_.height; ++y) {
+      row_a_ = lines_a_.row(y);
+      row_b_ = lines_b_.row(y);
+      // A line of floats that is equal may hold a NaN.
+      const bool look = result_.floats || std::memcmp(row_a_, row_b_, bytes) != 0;
+      if (!look && heat_ == nullptr && options_.mask.data.empty()) {
+        if (in_box(y)) result_.compared_pixels += static_cast<std::uint64_t>(box_.width);
+        continue;
+      }
       select(y);
       line_.clear();
-      // A line of floats that is equal may hold a NaN.
-      if (result_.floats || std::memcmp(a_.row(y), b_.row(y), bytes) != 0)
+      if (look)
         for (std::size_t c = 0; c < a_.channels.size(); ++c)
-          with_sample(a_.channels[c].sample, [&](auto type) { channel<decltype(type)>(c, y); });
+          with_sample(a_.channels[c].sample, [&](auto type) { channel<decltype(type)>(c); });
       gather(y);
     }
     result_.regions = finder_.regions();
-    result_.region_count = result_.regions.size();
-    if (result_.regions.size() > kMaxRegions) result_.regions.resize(kMaxRegions);
+    result_.region_count = finder_.count();
     finish();
   }
 
@@ -76,8 +87,10 @@ class Comparison {
     return options_.ignore_alpha && static_cast<int>(channel) == a_.alpha;
   }
 
+  [[nodiscard]] bool in_box(int y) const { return y >= box_.y && y - box_.y < box_.height; }
+
   void select(int y) {
-    const bool inside = y >= box_.y && y - box_.y < box_.height;
+    const bool inside = in_box(y);
     for (std::size_t x = 0; x < line_.compared.size(); ++x) {
       const int column = static_cast<int>(x);
       line_.compared[x] = inside && column >= box_.x && column - box_.x < box_.width &&
@@ -87,9 +100,9 @@ class Comparison {
   }
 
   template <typename Type>
-  void channel(std::size_t c, int y) {
-    const std::byte* pa = a_.row(y) + a_.channels[c].offset;
-    const std::byte* pb = b_.row(y) + a_.channels[c].offset;
+  void channel(std::size_t c) {
+    const std::byte* pa = row_a_ + a_.channels[c].offset;
+    const std::byte* pb = row_b_ + a_.channels[c].offset;
     const bool ignored = left_out(c);
     for (std::size_t x = 0; x < line_.compared.size(); ++x, pa += a_.pixel_bytes, pb += a_.pixel_bytes) {
       if (Type::is_nan(pa) || Type::is_nan(pb)) {
@@ -183,8 +196,11 @@ class Comparison {
       r.reason = fmt::format("{} of {} pixels {}", n, r.compared_pixels, n == 1 ? "differs" : "differ");
   }
 
-  const Picture& a_;
-  const Picture& b_;
+  const Picture& a_;  // without data; b is like it
+  PictureLines& lines_a_;
+  PictureLines& lines_b_;
+  const std::byte* row_a_ = nullptr;  // of the line at hand
+  const std::byte* row_b_ = nullptr;
   const DiffOptions& options_;
   DiffResult& result_;
   Image* heat_;
@@ -226,16 +242,26 @@ void check_options(const Picture& picture, const DiffOptions& o) {
                             picture.height));
 }
 
-DiffResult diff_pictures(const Picture& a, const Picture& b, const DiffOptions& options, Image* heat) {
+/// `background`: of the heat map, if there is one.
+DiffResult diff_lines(PictureLines& a, PictureLines& b, const DiffOptions& options, Image* heat,
+                      const Picture* background) {
+  const Picture& head = a.head();
   DiffResult r;
-  r.reason = unlike(a, b);
+  r.reason = unlike(head, b.head());
   if (!r.reason.empty()) return r;
-  check_options(a, options);
-  r.width = a.width;
-  r.height = a.height;
-  r.channels = static_cast<int>(a.channels.size());
-  Comparison(a, b, options, r, heat).run();
-  if (options.perceptual) {
+  check_options(head, options);
+  r.width = head.width;
+  r.height = head.height;
+  r.channels = static_cast<int>(head.channels.size());
+  Comparison(a, b, options, r, heat, background).run();
+  return r;
+}
+
+DiffResult diff_pictures(const Picture& a, const Picture& b, const DiffOptions& options, Image* heat) {
+  PictureLines lines_a(a);
+  PictureLines lines_b(b);
+  DiffResult r = diff_lines(lines_a, lines_b, options, heat, &a);
+  if (r.width != 0 && options.perceptual) {
     r.perceptual_pixels = perceptual_pixels(a, b, options.region.value_or(Box{0, 0, a.width, a.height}));
     r.flip = flip_metric(view_of(a), view_of(b));
   }
@@ -253,14 +279,45 @@ Picture picture_of(const Image& image) {
   return p;
 }
 
+/// What it takes to compare one of two files, in bytes.
+std::uint64_t bytes_of(const PictureReader& reader, bool whole, const DiffOptions& options) {
+  const Picture& head = reader.head();
+  const auto height = static_cast<std::uint64_t>(head.height);
+  const auto width = static_cast<std::uint64_t>(head.width);
+  if (!whole)
+    return reader.own_bytes() +
+           reader.line_bytes() * std::min<std::uint64_t>(static_cast<std::uint64_t>(reader.step()), height);
+  constexpr std::uint64_t kViews = 3 + 3;         // bytes a pixel: its view, and half of heat map and its background
+  constexpr std::uint64_t kPerceptual = 12 + 60;  // three linear floats, and FLIP's planes of doubles
+  return reader.own_bytes() + reader.line_bytes() * height +
+         width * height * (kViews + (options.perceptual ? kPerceptual : 0));
+}
+
+/// Also of pictures that are unlike all lines are read: a file that is damaged is trouble, whatever the other is.
+DiffResult diff_by_lines(PictureReader& a, PictureReader& b, const DiffOptions& options) {
+  PictureLines lines_a(a);
+  PictureLines lines_b(b);
+  DiffResult r = diff_lines(lines_a, lines_b, options, nullptr, nullptr);
+  if (r.width == 0)
+    for (PictureLines* lines : {&lines_a, &lines_b})
+      for (int y = 0; y < lines->head().height; ++y) (void)lines->row(y);
+  return r;
+}
+
 }  // namespace
 
 DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options,
                       DiffViews* views) {
-  const Picture pa = load_picture(a, options.part);
-  const Picture pb = load_picture(b, options.part);
-  if (views != nullptr) *views = {{}, view_of(pa), view_of(pb)};
+  const auto reader_a = open_picture(a, options.part);
+  const auto reader_b = open_picture(b, options.part);
+  const bool whole = views != nullptr || options.perceptual;
+  check_memory(fmt::format("{}, {}: to compare them takes", a.string(), b.string()).c_str(),
+               bytes_of(*reader_a, whole, options) + bytes_of(*reader_b, whole, options), options.max_bytes);
   try {
+    if (!whole) return diff_by_lines(*reader_a, *reader_b, options);
+    const Picture pa = whole_picture(*reader_a);
+    const Picture pb = whole_picture(*reader_b);
+    if (views != nullptr) *views = {{}, view_of(pa), view_of(pb)};
     DiffResult r = diff_pictures(pa, pb, options, views == nullptr ? nullptr : &views->heat);
     if (views != nullptr) frame_regions(views->heat, r.regions);
     return r;

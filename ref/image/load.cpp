@@ -7,10 +7,12 @@
 #include <nlohmann/json.hpp>
 
 #include "image/encoder.hpp"
+#include "image/memory.hpp"
 #include "image/module/table.hpp"
 #include "image/picture.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
+#include "module/foreign_code.hpp"
 
 namespace kage {
 
@@ -83,8 +85,29 @@ std::string unlike(const Picture& a, const Picture& b) {
   return "";
 }
 
+std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, int part) {
+  const PictureModule& module = module_table<PictureModule>();
+  const ForeignCode mark(path.string() + ": reading it");
+  return module.open(path, part);
+}
+
+Picture whole_picture(PictureReader& reader) {
+  Picture picture = reader.head();
+  const std::uint64_t line = reader.line_bytes();
+  const ForeignCode mark("reading a picture");
+  picture.data.resize(line * static_cast<std::uint64_t>(picture.height));
+  for (int y = 0; y < picture.height; y += reader.step())
+    reader.read(y, std::min(reader.step(), picture.height - y),
+                picture.data.data() + line * static_cast<std::uint64_t>(y));
+  return picture;
+}
+
 Picture load_picture(const std::filesystem::path& path, int part) {
-  return module_table<PictureModule>().read(path, part);
+  const auto reader = open_picture(path, part);
+  const Picture& head = reader->head();
+  check_memory(fmt::format("{}: {}x{} pixels take", path.string(), head.width, head.height).c_str(),
+               reader->own_bytes() + reader->line_bytes() * static_cast<std::uint64_t>(head.height), std::nullopt);
+  return whole_picture(*reader);
 }
 
 std::unique_ptr<ImageEncoder> encode_exr(OutputFile& out, const std::string& name, int width, int height,

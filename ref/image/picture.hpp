@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,8 +57,43 @@ std::string channel_names(const Picture& picture);
 /// Types of the channels, by commas; one if all are alike.
 std::string sample_names(const Picture& picture);
 
+/// A picture file whose lines come as they are asked for. All functions throw Error that names the file.
+class PictureReader {
+ public:
+  virtual ~PictureReader() = default;
+  PictureReader() = default;
+  PictureReader(const PictureReader&) = delete;
+  PictureReader& operator=(const PictureReader&) = delete;
+
+  /// All but `data`.
+  [[nodiscard]] const Picture& head() const { return head_; }
+  /// Bytes of a line.
+  [[nodiscard]] std::uint64_t line_bytes() const {
+    return static_cast<std::uint64_t>(head_.width) * static_cast<std::uint64_t>(head_.pixel_bytes);
+  }
+  /// So many lines at a time are read best.
+  [[nodiscard]] int step() const { return step_; }
+  /// Bytes that the reader itself takes for the picture, beside those of a step.
+  [[nodiscard]] std::uint64_t own_bytes() const { return own_bytes_; }
+
+  /// Reads `count` lines from line `y` on. `y` is where the last call ended, and a multiple of step().
+  virtual void read(int y, int count, std::byte* to) = 0;
+
+ protected:
+  Picture head_;
+  int step_ = 1;
+  std::uint64_t own_bytes_ = 0;
+};
+
+/// Opens a flat picture; alpha is taken as stored. `part` as load_picture() has it. Throws Error.
+std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, int part = -1);
+
+/// All of a reader's lines.
+Picture whole_picture(PictureReader& reader);
+
 /// Read a flat picture; alpha is taken as stored. Of a file that holds several, as a multi-part EXR, `part` is the
-/// number of one, from 0; without it (-1) such a file is refused. Throws Error.
+/// number of one, from 0; without it (-1) such a file is refused. Throws Error, also where that takes more memory than
+/// half of what there is.
 Picture load_picture(const std::filesystem::path& path, int part = -1);
 
 /// What makes two pictures incomparable (size, place, channels, types, notes), in words; "" if nothing does.

@@ -44,7 +44,10 @@ PngChunks read_png_chunks(const std::filesystem::path& path) {
     const std::streamoff next = static_cast<std::streamoff>(in.tellg()) + size + 4;  // behind the checksum
     if (tag == "IDAT" || tag == "IEND") break;
     if (tag == "acTL") found.animated = true;
-    if (tag == "IHDR" && size == 13 && read(13) && bytes[9] != 3) found.bits = bytes[8];
+    if (tag == "IHDR" && size == 13 && read(13)) {
+      if (bytes[9] != 3) found.bits = bytes[8];
+      found.interlaced = bytes[12] != 0;
+    }
     for (const Numbers& n : numbers) {
       if (tag != n.tag || size > bytes.size() || size % n.bytes != 0 || !read(size)) continue;
       for (std::size_t i = 0; i < size; i += n.bytes)

@@ -18,7 +18,8 @@ struct PngChunks {
   /// numbers are "" where the file has none.
   std::vector<std::pair<std::string, std::string>> more{
       {"CICP", ""}, {"number of significant bits", ""}, {"mastering display", ""}, {"content light level", ""}};
-  bool animated = false;  ///< more pictures than the first
+  bool animated = false;    ///< more pictures than the first
+  bool interlaced = false;  ///< it is there in seven parts, so no line is known before the last part
 };
 
 /// Looks at the chunks before the picture. Of a file that is no PNG, or a broken one, it tells what there is.

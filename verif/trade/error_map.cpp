@@ -64,7 +64,7 @@ double level(int steps) { return (std::bit_width(static_cast<unsigned>(std::clam
 /// Frames what of the map is `framed`, and lies alone.
 template <class Framed>
 void frame_alone(Image& image, const ErrorMap& map, const Color& color, int thick, Framed framed) {
-  RegionFinder finder(map.width, map.height);
+  RegionFinder finder(map.width);
   std::size_t i = 0;
   for (int y = 0; y < map.height; ++y)
     for (int x = 0; x < map.width; ++x)

@@ -5,10 +5,16 @@
 #include <fmt/ranges.h>
 #include <zlib.h>
 
-#include <new>
+#include <array>
+#include <fstream>
+#include <memory>
+#include <span>
 
+#include "file/read_file.hpp"
 #include "file/regular_file.hpp"
+#include "image/module/lossless.hpp"
 #include "image/module/table.hpp"
+#include "image/module/webp.hpp"
 #include "image/png_chunks.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
@@ -114,6 +120,7 @@ std::unique_ptr<OIIO::ImageInput> open_input(const std::filesystem::path& path) 
   hints.attribute("oiio:UnassociatedAlpha", 1);
   auto input = OIIO::ImageInput::open(path.string(), &hints);
   if (!input) fail(path, OIIO::geterror());
+  refuse_lossy_format(path, input->format_name());
   const OIIO::ImageSpec& spec = input->spec();
   const int interpretation = photometric(spec);
   if (interpretation == kCmyk) {
@@ -149,15 +156,10 @@ void choose_part(OIIO::ImageInput& input, const std::filesystem::path& path, int
   if (part > 0 && !input.seek_subimage(part, 0)) fail(path, input.geterror());
 }
 
-}  // namespace
-
-Picture read(const std::filesystem::path& path, int part) {
-  check_regular(path);
-  const auto input = open_input(path);
-  choose_part(*input, path, part);
-  const OIIO::ImageSpec& spec = input->spec();
+/// The file's first picture, or the one that was asked for, described; its pixels are left out.
+Picture described(OIIO::ImageInput& input, const std::filesystem::path& path, const PngChunks& png) {
+  const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1) fail(path, "is not a flat picture");
-
   Picture picture;
   picture.x = spec.x;
   picture.y = spec.y;
@@ -169,26 +171,111 @@ Picture read(const std::filesystem::path& path, int part) {
     picture.pixel_bytes += size_of(sample);
   }
   picture.alpha = spec.alpha_channel;
-  const PngChunks png = read_png_chunks(path);
-  if (png.animated) fail(path, "is animated: only files of one picture are compared");
-  picture.notes = notes_of(spec, png, input->format_name());
-  constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 33;
-  const std::uint64_t bytes = spec.image_bytes(true);
-  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0 || bytes > kMaxBytes)
+  // Of a GIF it is a number behind the last channel.
+  if (picture.alpha >= spec.nchannels) picture.alpha = spec.channelindex("A");
+  picture.notes = notes_of(spec, png, input.format_name());
+  if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
     fail(path, fmt::format("size {}x{} with {} channels is refused", spec.width, spec.height, spec.nchannels));
-  try {
-    picture.data.resize(bytes);
-  } catch (const std::bad_alloc&) {
-    fail(path, fmt::format("size {}x{} does not fit into memory", spec.width, spec.height));
-  }
-  // Without a type each channel keeps its own: one for all would round the integers of a file that has floats too.
-  const int chosen = std::max(part, 0);
-  if (!input->read_image(chosen, 0, 0, spec.nchannels, OIIO::TypeDesc::UNKNOWN, picture.data.data()))
-    fail(path, input->geterror());
-  if (input->seek_subimage(chosen, 1))
-    fail(path, "holds several sizes (a mipmap): only files of one picture are compared");
-  (void)input->geterror();
   return picture;
+}
+
+/// Formats that OpenImageIO reads line by line, and keeps nothing of what it has read.
+bool comes_in_lines(std::string_view format, const OIIO::ImageSpec& spec, const PngChunks& png) {
+  if (format == "png") return !png.interlaced;
+  return (format == "openexr" || format == "hdr" || format == "dpx") && spec.tile_width == 0;
+}
+
+/// Any file that OpenImageIO reads without loss.
+class FileReader : public PictureReader {
+ public:
+  FileReader(const std::filesystem::path& path, int part) : path_(path), part_(std::max(part, 0)) {
+    input_ = open_input(path);
+    choose_part(*input_, path, part);
+    const PngChunks png = read_png_chunks(path);
+    if (png.animated) fail(path, "is animated: only files of one picture are compared");
+    head_ = described(*input_, path, png);
+    spec_ = input_->spec();
+    if (input_->seek_subimage(part_, 1))
+      fail(path, "holds several sizes (a mipmap): only files of one picture are compared");
+    (void)input_->geterror();
+    if (!input_->seek_subimage(part_, 0)) fail(path, input_->geterror());
+    if (!comes_in_lines(input_->format_name(), spec_, png)) own_bytes_ = spec_.image_bytes(true);
+    constexpr std::uint64_t kStepBytes = std::uint64_t{1} << 20;
+    step_ = static_cast<int>(std::clamp<std::uint64_t>(kStepBytes / std::max<std::uint64_t>(line_bytes(), 1), 1, 1024));
+    if (spec_.tile_height > 0) step_ = (step_ + spec_.tile_height - 1) / spec_.tile_height * spec_.tile_height;
+  }
+
+  void read(int y, int count, std::byte* to) override {
+    const int from = spec_.y + y;
+    // Without a type each channel keeps its own: one for all would round the integers of a file that has floats too.
+    const OIIO::TypeDesc own = OIIO::TypeDesc::UNKNOWN;
+    const bool done = spec_.tile_width > 0
+                          ? input_->read_tiles(part_, 0, spec_.x, spec_.x + spec_.width, from, from + count, spec_.z,
+                                               spec_.z + 1, 0, spec_.nchannels, own, to)
+                          : input_->read_scanlines(part_, 0, from, from + count, spec_.z, 0, spec_.nchannels, own, to);
+    if (!done) fail(path_, input_->geterror());
+  }
+
+ private:
+  std::filesystem::path path_;
+  int part_;
+  std::unique_ptr<OIIO::ImageInput> input_;
+  OIIO::ImageSpec spec_;
+};
+
+/// A WebP file, all of it at once: OpenImageIO says what it holds, and its own library gives the pixels.
+class WebpReader : public PictureReader {
+ public:
+  WebpReader(const std::filesystem::path& path, int part) : path_(path), file_(read_file(path)) {
+    webp_ = webp_head(path, bytes());
+    const auto input = open_input(path);
+    choose_part(*input, path, part);
+    OIIO::ImageSpec spec(webp_.width, webp_.height, webp_.alpha ? 4 : 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    if (webp_.alpha) spec.attribute("oiio:UnassociatedAlpha", 1);
+    if (!webp_.profile.empty())
+      spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(webp_.profile.size())),
+                     webp_.profile.data());
+    spec.attribute("Orientation", input->spec().get_int_attribute("Orientation", 1));
+    head_.width = webp_.width;
+    head_.height = webp_.height;
+    head_.pixel_bytes = static_cast<std::size_t>(spec.nchannels);
+    for (std::size_t c = 0; c < head_.pixel_bytes; ++c) head_.channels.push_back({{"RGBA"[c]}, Sample::kU8, c});
+    head_.alpha = webp_.alpha ? 3 : -1;
+    head_.notes = notes_of(spec, {}, "webp");
+    step_ = webp_.height;
+    own_bytes_ = line_bytes() * static_cast<std::uint64_t>(webp_.height);
+  }
+
+  void read(int y, int count, std::byte* to) override {
+    if (y != 0 || count != webp_.height) fail(path_, "is read as a whole");
+    webp_pixels(path_, bytes(), webp_, {to, line_bytes() * static_cast<std::size_t>(count)});
+  }
+
+ private:
+  [[nodiscard]] std::span<const unsigned char> bytes() const {
+    return {reinterpret_cast<const unsigned char*>(file_.data()), file_.size()};
+  }
+
+  std::filesystem::path path_;
+  std::string file_;
+  WebpHead webp_;
+};
+
+bool is_webp(const std::filesystem::path& path) {
+  std::array<char, 12> begin{};
+  std::ifstream in(path, std::ios::binary);
+  return in.read(begin.data(), begin.size()) && std::string_view(begin.data(), 4) == "RIFF" &&
+         std::string_view(begin.data() + 8, 4) == "WEBP";
+}
+
+}  // namespace
+
+std::unique_ptr<PictureReader> open(const std::filesystem::path& path, int part) {
+  check_regular(path);
+  refuse_lossy_file(path);
+  if (is_webp(path)) return std::make_unique<WebpReader>(path, part);
+  return std::make_unique<FileReader>(path, part);
 }
 
 }  // namespace kage::picture_module

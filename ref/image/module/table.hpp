@@ -24,8 +24,8 @@ struct PictureModule : ModuleHead {
   /// OpenImageIO's threads and OpenEXR's, one per processor.
   static std::size_t room() { return (440U + 16U * std::thread::hardware_concurrency()) << 20U; }
 
-  /// As load_picture().
-  Picture (*read)(const std::filesystem::path& path, int part);
+  /// As open_picture().
+  std::unique_ptr<PictureReader> (*open)(const std::filesystem::path& path, int part);
   /// As encode_exr().
   std::unique_ptr<ImageEncoder> (*encode_exr)(OutputFile& out, const std::string& name, int width, int height,
                                               int channels);
@@ -35,7 +35,7 @@ struct PictureModule : ModuleHead {
 
 // What the module is made of, in its own files.
 namespace picture_module {
-Picture read(const std::filesystem::path& path, int part);
+std::unique_ptr<PictureReader> open(const std::filesystem::path& path, int part);
 std::unique_ptr<ImageEncoder> encode_exr(OutputFile& out, const std::string& name, int width, int height, int channels);
 std::optional<std::uint64_t> yee(int width, int height, float* a, float* b);
 }  // namespace picture_module

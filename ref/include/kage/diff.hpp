@@ -45,7 +45,8 @@ struct DiffOptions {
   Image mask;
   bool ignore_alpha = false;  ///< values of the alpha channel are not compared; pictures still both have one or not
   bool perceptual = false;    ///< compute DiffResult::perceptual_pixels and flip, which takes time
-  int part = -1;              ///< of files that hold several pictures, the number of the one to compare, from 0
+  std::optional<std::uint64_t> max_bytes;  ///< of memory that diff_files() may take; none: half of what there is
+  int part = -1;  ///< of files that hold several pictures, the number of the one to compare, from 0
 };
 
 /// The FLIP difference of [Andersson 2020] ("LDR-FLIP") over a picture's pixels, 0 (none is seen) to 1 each.
@@ -105,7 +106,8 @@ struct DiffViews {
 };
 
 /// Compares two picture files. Throws Error where one cannot be read, holds several pictures and `options` name none,
-/// or `options` do not go with them.
+/// or `options` do not go with them, and, before anything is read, where that takes too much memory. Without `views`
+/// and `perceptual` a PNG takes that of some lines, whatever its height.
 /// @param a any type that OpenImageIO reads
 /// @param b likewise
 /// @param options what is compared, and what is still the same

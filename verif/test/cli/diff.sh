@@ -258,4 +258,30 @@ for bad in pipe.png /dev/zero /dev/null; do
   trouble "$bad: is not a regular file" timeout 20 "$kage" diff a.png b.png --mask $bad
 done
 no_leftovers
+
+# High pictures: a PNG takes memory for some lines, whatever its height, and what takes more than there may be is refused before it
+# is read. Two of these as a whole take 1 GiB.
+python3 - <<'PY'
+import struct, zlib
+def png(name, width, height, interlaced, last):
+    chunk = lambda tag, data: struct.pack(">I", len(data)) + tag + data + struct.pack(">I", zlib.crc32(tag + data))
+    line, packer = bytes(1 + width // 8), zlib.compressobj(1)
+    data = b"".join([packer.compress(line * 255) for _ in range(height // 255)]) + packer.compress(last) + packer.flush()
+    head = struct.pack(">IIBBBBB", width, height // 255 * 255 + 1, 1, 0, 0, 0, interlaced)
+    open(name, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", data) + chunk(b"IEND", b""))
+last = bytes(1 + 1024)
+png("high.png", 8192, 65535, 0, last)
+png("high2.png", 8192, 65535, 0, last)
+png("other.png", 8192, 65535, 0, last[:-1] + b"\1")
+png("parts.png", 8192, 65535, 1, last)
+PY
+within() { (ulimit -v 900000 && exec "$@"); }
+expect 0 within "$kage" diff high.png high2.png
+grep -qF 'same: 8192x65536, 536870912 pixels compared' stdout || fail "$(cat stdout)"
+expect 1 within "$kage" diff high.png other.png
+grep -qF '1 differs, by up to 255 LSB, the first at x 8191, y 65535, channel 0' stdout || fail "$(cat stdout)"
+trouble 'parts.png: to compare them takes 1026 MiB' within "$kage" diff parts.png parts.png
+trouble 'are half of what there is: --max-memory MIB sets another limit' within "$kage" diff high.png high2.png --out high_heat.png
+trouble 'high2.png: to compare them takes 2 MiB of memory, and 1 MiB are what --max-memory allows' "$kage" diff high.png high2.png --max-memory 1
+[ ! -e high_heat.png ] || fail "a heat map of pictures that were refused"
 done_testing
