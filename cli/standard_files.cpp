@@ -9,8 +9,9 @@
 namespace kage::cli {
 
 void open_standard_files() {
+  // Standard output for reading alone: results that go there are lost, and whoever writes them must be told.
   for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
-    if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_RDONLY : O_WRONLY) < 0) return;
+    if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDERR_FILENO ? O_WRONLY : O_RDONLY) < 0) return;
 }
 
 void say(const std::string& text) {

@@ -2,24 +2,24 @@
 #pragma once
 
 #include <functional>
+#include <new>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 namespace kage::cli {
 
-/// Threads that do the same work, joined at the end. Where the system gives no more threads there are fewer.
+/// Threads that do the same work, joined at the end. Where the system gives no more threads, or no memory for one,
+/// there are fewer: those that there are do all of the work, and where there is none its caller does.
 class Workers {
  public:
   /// `work` must not throw.
   Workers(int count, const std::function<void()>& work) {
     try {
       for (int i = 0; i < count; ++i) threads_.emplace_back(work);
-    } catch (const std::system_error&) {  // those that there are do all of it
+    } catch (const std::system_error&) {
+    } catch (const std::bad_alloc&) {
     }
-  }
-  ~Workers() {
-    for (std::thread& t : threads_) t.join();
   }
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -27,7 +27,7 @@ class Workers {
   [[nodiscard]] int count() const { return static_cast<int>(threads_.size()); }
 
  private:
-  std::vector<std::thread> threads_;
+  std::vector<std::jthread> threads_;
 };
 
 }  // namespace kage::cli

@@ -160,7 +160,9 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
     if (wave == 1)
       of(first).make(first);
     else
-      arena.execute([&] { tbb::parallel_for(first, end, [&](int b) { of(b).make(b); }); });
+      arena.for_each(tbb::blocked_range<int>(first, end), [&](const tbb::blocked_range<int>& some) {
+        for (int b = some.begin(); b < some.end(); ++b) of(b).make(b);
+      });
     for (int b = first; b < end; ++b) {
       if (origins != nullptr) of(b).add_origins(*origins);
       if (polygons) of(b).add_spans(report);

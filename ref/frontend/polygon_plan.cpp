@@ -71,14 +71,12 @@ void PolygonPlan::find_shapes(const Config& config, Arena& arena) {
   std::fill_n(drawn.begin(), g_->drawn, 1);
   for (const ScreenFragment& f : g_->fragments) std::fill_n(drawn.begin() + f.first_polygon, f.polygon_count, 1);
   constexpr std::size_t kGrain = 64;
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, shapes_.size(), kGrain),
-                      [&](const tbb::blocked_range<std::size_t>& some) {
-                        ShapeFinder finder(*g_, config);
-                        for (std::size_t i = some.begin(); i < some.end(); ++i)
-                          shapes_[i] = finder.find(g_->polygons[i], drawn[i] != 0);
-                      });
-  });
+  arena.for_each(tbb::blocked_range<std::size_t>(0, shapes_.size(), kGrain),
+                 [&](const tbb::blocked_range<std::size_t>& some) {
+                   ShapeFinder finder(*g_, config);
+                   for (std::size_t i = some.begin(); i < some.end(); ++i)
+                     shapes_[i] = finder.find(g_->polygons[i], drawn[i] != 0);
+                 });
 }
 
 void PolygonPlan::number_uses(const Config& config) {

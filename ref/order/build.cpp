@@ -3,15 +3,12 @@
 // Sets of fragments are cut, one after the other, by a plane of one of their faces. Each set has its own chance, drawn
 // from its parent's, and nothing else passes between sets: so the tree is the same whichever thread takes which.
 #include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
 #include <tbb/parallel_for_each.h>
 
 #include <algorithm>
 #include <atomic>
 #include <memory>
 #include <mutex>
-#include <optional>
 
 #include "arena/arena.hpp"
 #include "kage/error.hpp"
@@ -56,17 +53,18 @@ class Builder {
     all.fragments.resize(faces_.faces.size());
     for (std::size_t f = 0; f < all.fragments.size(); ++f) all.fragments[f].face = static_cast<std::uint32_t>(f);
     if (all.fragments.empty()) return std::move(tree_);
-    // As many as asked for, even if there are fewer processors.
-    std::optional<tbb::global_control> allowed;
-    if (options_.threads > tbb::info::default_concurrency())
-      allowed.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(options_.threads));
     Arena arena(options_.threads);
     // A tbb::task_group that finds no memory for a task waits for that task for ever, in its destructor.
     const SharedSet first = std::make_shared<Set>(std::move(all));
+    hand_on(first.get());
     arena.execute([&] {
-      tbb::parallel_for_each(&first, &first + 1,
-                             [this](const SharedSet& set, Feeder& feeder) { work(std::move(*set), feeder); });
+      tbb::parallel_for_each(&first, &first + 1, [this](const SharedSet& set, Feeder& feeder) {
+        take_over(set.get());
+        work(std::move(*set), feeder);
+        hand_on(this);
+      });
     });
+    take_over(this);
     if (options_.progress) options_.progress(1);
     stats_.splits = total_ - faces_.faces.size();
     return std::move(tree_);
@@ -100,7 +98,7 @@ class Builder {
         if (s.fragments.empty()) continue;
         s.share = each * work_of(s.fragments);
         if (s.fragments.size() >= kTask && !stack.empty())
-          feeder.add(std::make_shared<Set>(std::move(s)));
+          give(std::move(s), feeder);
         else
           stack.push_back(std::move(s));
       }
@@ -110,6 +108,13 @@ class Builder {
     stats_.side_tests += classifier.tests();
     stats_.exact_tests += classifier.exact();
     tree_.nodes.push_back(std::move(nodes));
+  }
+
+  /// To whichever thread is free.
+  static void give(Set set, Feeder& feeder) {
+    const SharedSet shared = std::make_shared<Set>(std::move(set));
+    hand_on(shared.get());
+    feeder.add(shared);
   }
 
   /// What a thread has done and not reported yet.

@@ -39,17 +39,15 @@ ScreenTruth screen_truth(const FrameGeometry& geometry, const Config& config, in
   out.height = geometry.height;
   out.pixels.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
   Arena arena(threads);
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, out.height, 4), [&](const tbb::blocked_range<int>& lines) {
-      Oracle oracle(geometry, config);
-      for (int y = lines.begin(); y < lines.end(); ++y) {
-        if (step) step();
-        oracle.line(y);
-        for (int x = 0; x < out.width; ++x)
-          out.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) + static_cast<std::size_t>(x)] =
-              pixel(oracle, geometry, config, x);
-      }
-    });
+  arena.for_each(tbb::blocked_range<int>(0, out.height, 4), [&](const tbb::blocked_range<int>& lines) {
+    Oracle oracle(geometry, config);
+    for (int y = lines.begin(); y < lines.end(); ++y) {
+      if (step) step();
+      oracle.line(y);
+      for (int x = 0; x < out.width; ++x)
+        out.pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(out.width) + static_cast<std::size_t>(x)] =
+            pixel(oracle, geometry, config, x);
+    }
   });
   return out;
 }

@@ -281,7 +281,10 @@ void write_sweep_page(TempFiles& files, const fs::path& folder, const SweepPage&
                           {.folder = "verif/trade/page", .style = "sweep", .pictures_beside = true});
   const Stems stems = stems_of(page.rows);
   write_plots(files, folder, page, stems);
-  auto [shown, data] = fitted(page, stems, headline, page.most_bytes - std::min(page.most_bytes, html.bytes()));
+  // Names of their own: C++20 as clang 14 has it takes no structured binding into a lambda.
+  auto fit = fitted(page, stems, headline, page.most_bytes - std::min(page.most_bytes, html.bytes()));
+  const Shown& shown = fit.first;
+  Json& data = fit.second;
   Pictures pictures(files, folder);
   for (std::size_t i = 0; i < shown.rows.size(); ++i) {
     page.doing(fmt::format("drawing the pictures of row {} of {}", i + 1, shown.rows.size()));

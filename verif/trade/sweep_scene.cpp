@@ -333,14 +333,12 @@ std::shared_ptr<const std::vector<RayPixel>> SweepScene::rays(int index, const S
     for (int y = step / 2; y < point.height; y += step)
       for (int x = step / 2; x < point.width; x += step) out.push_back({.x = x, .y = y, .layers = {}});
     Arena arena(data_->draw.threads);
-    arena.execute([&] {
-      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, out.size(), 256), [&](const auto& range) {
-        data_->step();
-        for (std::size_t i = range.begin(); i < range.end(); ++i) {
-          const bool ask = out[i].x / step % lights == 0 && out[i].y / step % lights == 0;
-          out[i] = ray_pixel(f, out[i].x, out[i].y, ask);
-        }
-      });
+    arena.for_each(tbb::blocked_range<std::size_t>(0, out.size(), 256), [&](const auto& range) {
+      data_->step();
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        const bool ask = out[i].x / step % lights == 0 && out[i].y / step % lights == 0;
+        out[i] = ray_pixel(f, out[i].x, out[i].y, ask);
+      }
     });
     return out;
   });

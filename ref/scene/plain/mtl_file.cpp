@@ -37,7 +37,7 @@ class MtlReader {
       if (in_.keyword() == "newmtl") {
         finish(materials);
         name_ = in_.name();
-        known_.emplace();
+        known_ = Known{};  // clang 14 finds no emplace() for a type that is not whole yet
       } else {
         read_statement();
       }

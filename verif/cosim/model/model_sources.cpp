@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <system_error>
 
@@ -25,11 +26,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What `command` prints; empty if it fails.
-std::string output_of(const char* command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command, "r"), pclose);
+/// What `command` prints; empty if it prints nothing. Throws Error if no shell can be started for it.
+std::string output_of(const std::string& command) {
+  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+  if (!pipe) throw Error(fmt::format("`{}`: cannot be started: {}", command, std::strerror(errno)));
   std::string text;
-  if (!pipe) return text;
   std::array<char, 512> buffer{};
   while (true) {
     const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe.get());
@@ -40,9 +41,32 @@ std::string output_of(const char* command) {
   }
 }
 
-constexpr const char* kVerilator = "\"${VERILATOR:-verilator}\" --version 2>/dev/null";
-constexpr const char* kYosys = "${YOSYS:-yosys} -V 2>/dev/null";
-constexpr const char* kCompiler = "${CXX:-c++} --version 2>/dev/null";
+constexpr const char* kVerilator = "\"${VERILATOR:-verilator}\" --version";
+constexpr const char* kYosys = "${YOSYS:-yosys} -V";
+constexpr const char* kCompiler = "${CXX:-c++} --version";
+
+/// The first line on standard output.
+std::string version_of(const char* command) { return output_of(std::string(command) + " 2>/dev/null"); }
+
+/// Why Verilator, which is there, says no version: the first line of all that it says. Empty if it is not there. Its
+/// exit code does not tell: that of a program whose library cannot be opened is the same as that of none.
+std::string failure_of_verilator() {
+  const std::string said = output_of(
+      fmt::format("if command -v \"${{VERILATOR:-verilator}}\" >/dev/null 2>&1; then {} 2>&1; fi", kVerilator));
+  return said.substr(0, said.find('\n'));
+}
+
+[[noreturn]] void refuse_verilator() {
+  const char* const root = std::getenv("VERILATOR_ROOT");
+  const std::string why = failure_of_verilator();
+  // Verilator looks for its own program there and nowhere else.
+  const auto has = [&](const char* program) { return fs::exists(fs::path(root) / program); };
+  if (root != nullptr && *root != '\0' && !has("bin/verilator_bin") && !has("verilator_bin"))
+    throw Error(fmt::format("verilator: $VERILATOR_ROOT is {}, and no Verilator is there: unset it{}", root,
+                            why.empty() ? "" : " (" + why + ")"));
+  if (!why.empty()) throw Error(fmt::format("verilator: it is there and does not run: {}", why));
+  throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
+}
 
 /// The patterns of a role of sources.yaml.
 std::vector<fs::path> patterns(const YAML::Node& roles, const char* role) {
@@ -88,25 +112,25 @@ YAML::Node roles_of(const fs::path& data) {
 }  // namespace
 
 const std::string& verilator_version() {
-  static const std::string version = output_of(kVerilator);
+  static const std::string version = version_of(kVerilator);
   return version;
 }
 
 const std::string& compiler_version() {
-  static const std::string version = output_of(kCompiler);
+  static const std::string version = version_of(kCompiler);
   return version;
 }
 
 ModelTools model_tool_versions(const ModelOptions& options, bool anew) {
   ModelTools tools;
-  tools.verilator = anew ? output_of(kVerilator) : verilator_version();
+  tools.verilator = anew ? version_of(kVerilator) : verilator_version();
   if (tools.verilator.empty() && options.progress) options.progress(0);  // an interruption ends it too
-  if (tools.verilator.empty()) throw Error("verilator: not found, and RTL models need it: tools/deps installs it");
+  if (tools.verilator.empty()) refuse_verilator();
   const char* const cxx = std::getenv("CXX");
   tools.cxx = cxx != nullptr ? cxx : "";
-  tools.compiler = anew ? output_of(kCompiler) : compiler_version();
+  tools.compiler = anew ? version_of(kCompiler) : compiler_version();
   const char* const yosys = std::getenv("YOSYS");
-  if (!options.netlist.empty()) tools.yosys = output_of(kYosys);
+  if (!options.netlist.empty()) tools.yosys = version_of(kYosys);
   if (!options.netlist.empty() && tools.yosys.empty()) {
     if (yosys != nullptr && *yosys != '\0')
       throw Error(fmt::format("$YOSYS: `{} -V` fails or says no version, and netlists need a yosys", yosys));

@@ -124,6 +124,40 @@ for command in "render heard.kage --out kept" "stream courtyard --size 32x24 --f
   trouble "standard output: cannot be written" sh -c 'exec "$@" >/dev/full' sh "$kage" $command
 done
 [ "$(cat kept/*)" = "$(printf 'old\nold\nold')" ] || fail "a run that failed left: $(ls -l kept)"
+# Standard output that is closed is trouble for whoever has something to say there, and standard error that is closed is not.
+for command in "stream heard.kage --out -" "info heard.kage" "info heard.kage --json -" "list" "diff heard.kage heard.kage"; do
+  # shellcheck disable=SC2086
+  trouble "standard output: cannot be written" sh -c 'exec "$@" >&-' sh "$kage" $command
+done
+# A name that begins a line on a page of CI is refused.
+printf 'LANES: 4\n' >$'line\n::warning::x'
+trouble "a configuration's name holds no control characters" "$kage" render courtyard --config $'line\n::warning::x' --out none
+# A link to a file that is not there yet is written through.
+mkdir elsewhere && ln -s elsewhere/l.kage link.kage
+expect 0 "$kage" stream courtyard --size 32x24 --frames 1 --out link.kage
+[ -L link.kage ] && [ -s elsewhere/l.kage ] || fail "--out on a link: $(ls -l link.kage elsewhere)"
+# More threads than processors are no matter to anybody who reads standard error.
+for command in "order $source/verif/test/meshes/sixteen_faces.obj --eyes 2 --repeats 1 --threads 9" \
+  "render glass --size 64x48 --frames 1 --threads 9 --out none"; do
+  # shellcheck disable=SC2086
+  expect 0 "$kage" $command
+  [ ! -s stderr ] || fail "$command: $(cat stderr)"
+done
+# So few open files that something cannot be opened: that is what is told.
+echo '{"asset":{"version":"2.0"}}' >none.gltf
+for command in "info none.gltf" "info $source/verif/test/meshes/sixteen_faces.obj" "model tiny" "info heard.kage" "list" "diff heard.kage heard.kage"; do
+  for files in 3 4 5 6 7 8 9 10 12 16; do
+    rc=0
+    # shellcheck disable=SC2086
+    (ulimit -n $files && XDG_CACHE_HOME=$PWD/few-files exec "$kage" $command) >stdout 2>stderr || rc=$?
+    [ $rc = 0 ] && continue
+    [ "$command" = "model tiny" ] && [ $files -gt 10 ] && continue # a compiler and a linker have causes of their own
+    [[ $rc = 127 ]] && grep -q 'shared object' stderr && continue # the loader's own words
+    grep -qF 'no faces' stderr && [ "$command" = "info none.gltf" ] && continue
+    [ $rc = 2 ] && [ "$(wc -l <stderr)" = 1 ] && grep -qiE 'too many open files|error 24' stderr || fail "ulimit -n $files, $command: exit $rc, $(cat stderr)"
+    grep -qE 'not JSON|not found|cut off|is empty' stderr && fail "ulimit -n $files, $command: a wrong cause: $(cat stderr)"
+  done
+done
 set +o pipefail
 "$kage" info heard.kage --tokens 0 2>stderr | head -n 1 >first
 set -o pipefail
