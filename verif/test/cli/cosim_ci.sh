@@ -147,7 +147,7 @@ trouble "b1.json: its option fault is wrong_compare, that of 1.json is not given
 trouble "whole.json: the report of all frames" "$kage" merge whole.json
 trouble "all.json: the report of all frames" "$kage" merge all.json
 trouble "nowhere.json: cannot be read" "$kage" merge nowhere.json
-trouble "1.xml: not JSON" "$kage" merge 1.xml
+trouble "1.xml: line 1, column 1: not JSON" "$kage" merge 1.xml
 trouble "1.json: this output would overwrite an input" "$kage" merge 1.json 2.json 3.json --json 1.json
 ln -s 2.json link.json
 for o in "--json ./1.json" "--json $PWD/1.json" "--junit link.json"; do
@@ -187,7 +187,7 @@ trouble "2.json: its option idle is 0, that of spoilt.json is 1" "$kage" merge s
 spoilt "j['shard']['count']=4"
 trouble "spoilt.json: one of 4 shards, 2.json one of 3" "$kage" merge 2.json 3.json spoilt.json
 echo '[[[' >broken.json
-trouble "broken.json: not JSON" "$kage" merge broken.json
+trouble "broken.json: line 2, column 1: not JSON, or cut off" "$kage" merge broken.json
 # Keys of a later kage are passed over.
 spoilt "j['later']=j['stalled']['later']={'x': 1}; j['each'][0]['stalled_by_phase']['later']=1"
 expect 0 "$kage" merge spoilt.json 2.json 3.json

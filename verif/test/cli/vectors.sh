@@ -162,7 +162,7 @@ broken 'b/kage_pack_tb.v: the manifest names it, and it is not there' rm kage_pa
 broken "b/stimulus.bin: has $(($(stat -c %s p/stimulus.bin) + 1)) bytes, the manifest says $(stat -c %s p/stimulus.bin)" bash -c 'echo >>stimulus.bin'
 broken 'b/manifest.json: its format is kage.pack/2, this kage reads kage.pack/1' sed -i 's,kage.pack/1,kage.pack/2,' manifest.json
 broken 'b/manifest.json: is not there: no pack' rm manifest.json
-broken 'b/manifest.json: not JSON' truncate -s 100 manifest.json
+broken 'not JSON, or cut off' truncate -s 100 manifest.json
 broken 'beats is missing' sed -i '0,/      "beats"/s//      "beets"/' manifest.json
 broken 'is a file outside the pack' sed -i 's,"name": "README.md","name": "../README.md",' manifest.json
 # Files and hashes are as the manifest says, but not what the frames come to.
