@@ -45,15 +45,19 @@ TEST_CASE("long lists end, and names with line breaks stay on their line") {
   CHECK(got.says(
       "20 extensions are ignored: FOO_100, FOO_101, FOO_102, FOO_103, FOO_104, FOO_105, FOO_106, FOO_107 and 12 more"));
   CHECK(got.says("1 key is ignored, which kage does not know: materials/a b"));
-  std::string deep(100000, '[');
-  deep += std::string(100000, ']');
-  Json nested = test::base();
-  nested["extras"] = 0;
-  std::string text = nested.dump();
-  text.replace(text.find("\"extras\":0"), 10, "\"deep\":" + deep);
+}
+
+TEST_CASE("what nests deep is told, and refused where it is deeper than any JSON that is read") {
   const TempDirectory dir;
-  const Scene scene = Scene::load(dir.write("deep.gltf", text));
-  CHECK(test::has_note(scene, "deep"));
+  const auto nested = [&](std::size_t levels) {
+    Json doc = test::base();
+    doc["extras"] = 0;
+    std::string text = doc.dump();
+    text.replace(text.find("\"extras\":0"), 10, "\"deep\":" + std::string(levels, '[') + std::string(levels, ']'));
+    return Scene::load(dir.write("deep.gltf", text));
+  };
+  CHECK(test::has_note(nested(100), "deep"));
+  for (const std::size_t levels : {200, 100000}) CHECK_THROWS_AS(nested(levels), Error);
 }
 
 TEST_CASE("unlit, emission over black, transmission, sides") {

@@ -120,10 +120,13 @@ TEST_CASE("a packed scene survives, and damage to it is noticed") {
 TEST_CASE("files that are none") {
   const TempDirectory dir;
   const std::string missing = (dir.path() / "missing.obj").string();
-  const std::string none = fmt::format(": no such file, and no built-in scene of that name (there are {})",
-                                       fmt::join(builtin_scenes(), ", "));
+  const auto none_of = [](const std::string& meant) {
+    return fmt::format(": no such file, and no built-in scene of that name{} (there are {})", meant,
+                       fmt::join(builtin_scenes(), ", "));
+  };
+  const std::string none = none_of("");
   CHECK(refusal(missing) == missing + none);
-  CHECK(refusal("courtyrad") == "courtyrad" + none);
+  CHECK(refusal("courtyrad") == "courtyrad" + none_of(" (did you mean courtyard?)"));
   CHECK(refusal(dir.path().string()) == dir.path().string() + ": is a directory");
   CHECK(refusal("") == none);
   const std::string empty = dir.write("empty.ply", "");
