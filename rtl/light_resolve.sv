@@ -117,18 +117,6 @@ module light_resolve #(
     end
     always_ff @(posedge clk_i) if (go_i) sums_q <= sums;
     assign lost = sums_q;
-`ifndef SYNTHESIS
-    always @(posedge clk_i) begin
-      for (int c = 0; c < Shares; c++) begin
-        for (int l = 0; l < LIGHTS; l++) begin
-          // 1. A sum has bits for all of it: none of its terms is more.
-          assert (32'(sums[c*SumBits+:SumBits]) >= 32'(products_q[(l*Shares+c)*ProductBits+:ProductBits]));
-          // 2. No share of a light is more than the whole: the product has its bits.
-          assert (!table_valid_i || entry.share[c*FactorBits+:FactorBits] <= FactorBits'(WholeShare));
-        end
-      end
-    end
-`endif
   end else begin : gen_one_product
     assign lost = products_q;
   end
