@@ -101,7 +101,7 @@ trouble "X_BITS" "$kage" render c.kage --config tiny
 trouble nowhere "$kage" stream courtyard "${small[@]}" --out nowhere/c.kage
 trouble nowhere.obj "$kage" render nowhere.obj
 scenes=$("$kage" list scenes | paste -sd, | sed 's/,/, /g')
-trouble "courtyrad: no such file, and no built-in scene of that name (there are $scenes)" "$kage" render courtyrad
+trouble "courtyrad: no such file, and no built-in scene of that name (did you mean courtyard?) (there are $scenes)" "$kage" render courtyrad
 printf 'v 0 0 0\nv 1 0 nan\nv 0 1 0\nf 1 2 3\n' >nan.obj
 trouble nan.obj "$kage" render nan.obj --frames 1
 : >empty.obj
