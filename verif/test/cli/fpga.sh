@@ -21,7 +21,7 @@ said() { grep -qF -- "$1" stdout || { fail "not said: $1"; sed 's/^/    /' stdou
 expect 0 "$source/tools/fpga" --help
 for word in "tools/fpga BOARD" "--pack PACK" "a clock of a board is not met, or a path between two"; do said "$word"; done
 
-refused "nobody: no such device or board; there are ecp5-25f" nobody
+refused "nobody: no such device or board; there are ecp5-12f, ecp5-25f" nobody
 refused "hx8k_breakout" nobody
 refused "tiny: a board's core stands in constraints/boards/boards.yaml" hx8k_breakout tiny
 refused "--gate: is of a device" ulx3s_25f --gate 5

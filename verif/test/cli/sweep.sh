@@ -270,7 +270,7 @@ mkdir few
 for name in bash env dirname nproc sed grep wc; do ln -s "$(command -v $name)" few/; done
 ln -s /usr/bin/python3 few/
 PATH=$PWD/few XDG_CACHE_HOME=$PWD/nothing trouble "--place ecp5-85f: tools/fpga: yosys: not found; Debian's package is yosys, tools/deps fpga installs it" "$kage" sweep courtyard "${quick[@]}" --place --store no.sqlite
-trouble "--place nowhere: tools/fpga: nowhere: no such device or board; there are ecp5-25f" "$kage" sweep courtyard "${quick[@]}" --place=nowhere --store no.sqlite
+trouble "--place nowhere: tools/fpga: nowhere: no such device or board; there are ecp5-12f, ecp5-25f" "$kage" sweep courtyard "${quick[@]}" --place=nowhere --store no.sqlite
 data_copy data
 KAGE_DATA_DIR=$PWD/data trouble "data/tools/fpga: cores are placed by a kage in its source tree" "$kage" sweep courtyard "${quick[@]}" --place --store no.sqlite
 YOSYS=/nonexistent trouble "/nonexistent: not found" "$kage" sweep courtyard --config tiny --no-cosim --store no.sqlite

@@ -7,8 +7,8 @@
 make p courtyard --size 16x12 --frames 2 --config default
 json pack.json 'j["frames"]==20 and j["malformed"]==18 and j["pixels"]>=2*16*12 and 0<j["clocks"]<20*2000'
 # Of a refused header no clocks are told, and of no other frame those that the driver waits for.
-json pack/manifest.json '(f:=[x for x in j["frames"] if x["height"]==0]) and all(x["clocks"] is None for x in f)'
-json pack/manifest.json 'all(0<x["clocks"]<2000 for x in j["frames"] if x["height"]>0)'
+json p/manifest.json '(f:=[x for x in j["frames"] if x["height"]==0]) and all(x["clocks"] is None for x in f)'
+json p/manifest.json 'all(0<x["clocks"]<2000 for x in j["frames"] if x["height"]>0)'
 no_leftovers
 
 # ---- sizes are said before, exactly ----

@@ -16,5 +16,5 @@ wave() {
 }
 wave 0 random --frames 60 --seed 3
 wave 0 random --frames 60 --seed 7 --idle 40 --backpressure 40
-wave 1 random:mixed --frames 60 --seed 5 --idle 20
+wave 1 random:mixed --frames 60 --seed 10 --idle 20
 done_testing
