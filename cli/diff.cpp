@@ -31,6 +31,13 @@ Sort sort_of(const fs::path& path) {
   return is_stream_file(path) || lower_extension(path) == ".kage" ? Sort::stream : Sort::picture;
 }
 
+/// Whether the name says that it is a scene's, of which there is no picture yet.
+bool is_scene_file(const fs::path& path) {
+  static constexpr std::string_view kEndings[] = {".gltf", ".glb", ".obj", ".ply", ".stl", ".off"};
+  return sort_of(path) == Sort::picture &&
+         std::find(std::begin(kEndings), std::end(kEndings), lower_extension(path)) != std::end(kEndings);
+}
+
 /// Throws Error if one of the options is given that `what` does not take.
 void refuse(const DiffCommand& o, const std::string& what, const std::vector<std::string>& options) {
   for (const std::string& name : o.given)
@@ -44,7 +51,9 @@ int run(const DiffCommand& o) {
   // What is missing is named by whoever opens it.
   if (sort == Sort::nothing) sort = other;
   if (other == Sort::nothing) other = sort;
-  static constexpr const char* kWords[] = {"nothing", "a picture", "a directory", "a stream"};
+  static constexpr const char* kWords[] = {"nothing", "a file", "a directory", "a stream"};
+  for (const std::string& name : {o.a, o.b})
+    if (is_scene_file(name)) throw Error(fmt::format("{}: is a scene; kage render makes pictures of it", name));
   if (sort != other)
     throw Error(fmt::format("{}: is {}, and {} is {}: there is nothing to compare", o.b,
                             kWords[static_cast<std::size_t>(other)], o.a, kWords[static_cast<std::size_t>(sort)]));

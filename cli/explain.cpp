@@ -88,7 +88,7 @@ class RtlLines {
  private:
   static void print(const cosim::RtlTouch& t, const std::string& token) {
     fmt::print("            RTL, {}cycle {}, {}{}: {}{}\n", token, t.cycle, cosim::describe(t.stage),
-               t.load ? " (its colour comes back)" : "", t.text, t.same ? "" : "   <-- differs");
+               t.load ? " (its colour comes back)" : "", t.text(), t.same ? "" : "   <-- differs");
   }
 
   const std::vector<cosim::RtlTouch>& rtl_;
@@ -178,7 +178,7 @@ Json to_json(const Explained& e, const ExplainCommand& o, const Config& config) 
                         {"load", t.load},
                         {"cycle", t.cycle},
                         {"same", t.same},
-                        {"text", t.text}});
+                        {"text", t.text()}});
   return j;
 }
 

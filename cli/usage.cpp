@@ -32,7 +32,17 @@ std::vector<std::string> options(const CLI::App& command) {
   return names;
 }
 
-/// What nobody asked for: a mistyped command or option, or an argument too many.
+/// Options of other commands that a command does by other means.
+constexpr struct {
+  std::string_view command;
+  std::string_view option;
+  std::string_view instead;
+} kInstead[] = {
+    {"model", "config", "a configuration is an argument"},
+    {"stream", "front-end", "--level polygons makes the stream that a front end takes"},
+};
+
+/// Nobody asked for it: a mistyped command or option, or an argument too many.
 std::string unexpected(const CLI::App& app, const CLI::App* command) {
   const std::vector<std::string> before = app.remaining(false);
   const std::vector<std::string> all = app.remaining(true);
@@ -43,6 +53,9 @@ std::string unexpected(const CLI::App& app, const CLI::App* command) {
     const std::vector<std::string> known = options(command != nullptr ? *command : app);
     if (command != nullptr && !before.empty() && std::find(known.begin(), known.end(), name) != known.end())
       return fmt::format("{}: options come after the command", text);
+    for (const auto& [of, option, instead] : kInstead)
+      if (command != nullptr && command->get_name() == of && name == option)
+        return fmt::format("{}: no option of kage {}: {}", text, of, instead);
     const std::string near = nearest(name, known);
     return fmt::format("{}: no such option{}", text, meant(near.empty() ? "" : "--" + near));
   }
@@ -100,7 +113,11 @@ std::string explain(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<CLI::App*> parsed = app.get_subcommands();
   const CLI::App* const command = parsed.empty() ? nullptr : parsed.front();
   std::string text = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+  // CLI11 tells of an option that is missing before one that there is not: the second may be the first's wrong name.
+  const std::vector<std::string> extras = app.remaining(true);
+  const bool mistyped = !extras.empty() && extras.front().size() > 1 && extras.front().front() == '-' &&
+                        dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (mistyped || dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
     text = unexpected(app, command);
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr && text.rfind("--", 0) == 0) {
     text = text.substr(0, text.find(':')) + ": its value is missing";

@@ -68,7 +68,9 @@ Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = 
           entry.second.IsScalar() ? "" : "; a file has the parameters of one configuration, with no name over them"));
     if (!seen.insert(name).second) throw Error(fmt::format("{}: given twice", place));
     int value = 0;
-    if (!entry.second.IsScalar() || !YAML::convert<int>::decode(entry.second, value))
+    // A quotation mark without a second one leaves the line's end in the value.
+    if (!entry.second.IsScalar() || entry.second.Scalar().find_first_of(" \n") != std::string::npos ||
+        !YAML::convert<int>::decode(entry.second, value))
       throw Error(fmt::format("{}: not a whole number", place));
     config.*(p->member) = value;
   }
@@ -76,14 +78,26 @@ Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = 
   return config;
 }
 
-/// What a text holds; `where` opens the message of an Error. yaml-cpp keeps a limit of depth itself.
+/// Why a text is not YAML, in words of who writes a configuration.
+std::string no_yaml(const YAML::Exception& e) {
+  const auto begins = [&](const char* words) { return e.msg.rfind(words, 0) == 0; };
+  if (begins(YAML::ErrorMsg::END_OF_SEQ_FLOW)) return "a [ has no ]";
+  if (begins(YAML::ErrorMsg::END_OF_MAP_FLOW)) return "a { has no }";
+  if (begins(YAML::ErrorMsg::FLOW_END)) return "a ] or } closes nothing";
+  if (begins(YAML::ErrorMsg::EOF_IN_SCALAR)) return "a quotation mark has no second one";
+  if (begins(YAML::ErrorMsg::TAB_IN_INDENTATION)) return "blanks indent a line, tabs do not";
+  if (begins(YAML::ErrorMsg::UNKNOWN_ANCHOR)) return "* wants the name of an anchor, and there is none of this name";
+  return "not YAML: a line is PARAMETER: value";
+}
+
+/// The values of a text; `where` opens the message of an Error. yaml-cpp keeps a limit of depth itself.
 YAML::Node parsed_yaml(const std::string& text, const std::string& where) {
   try {
     return YAML::Load(text);
   } catch (const YAML::DeepRecursion& e) {
     throw Error(fmt::format("{}: line {}: lists nest too deeply", where, e.mark.line + 1));
   } catch (const YAML::Exception& e) {
-    throw Error(fmt::format("{}: line {}: {}", where, e.mark.line + 1, e.msg));
+    throw Error(fmt::format("{}: line {}: {}", where, e.mark.line + 1, no_yaml(e)));
   }
 }
 

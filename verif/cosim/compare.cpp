@@ -110,7 +110,7 @@ std::optional<Difference> FrameComparison::first_of(const FrameEnd& e, const Fra
   return std::nullopt;
 }
 
-Image FrameComparison::actual_image(const Image& expected) const {
+FrameComparison::Drawn FrameComparison::drawn(const Image& expected) const {
   Image image = expected;
   if (expected.data.empty()) {
     const auto width = static_cast<int>(kept_line_) / channels_;
@@ -121,7 +121,8 @@ Image FrameComparison::actual_image(const Image& expected) const {
   const auto have = std::min(image.data.size() - same, kept_.size());
   const auto end = std::copy_n(kept_.begin(), have, image.data.begin() + static_cast<std::ptrdiff_t>(same));
   std::fill(end, image.data.end(), std::uint8_t{0});
-  return image;
+  const std::size_t came = same + have;
+  return {std::move(image), came};
 }
 
 std::string describe(const Difference& d) {

@@ -58,7 +58,7 @@ class Lines {
 /// Keeps the lines that the expected core is ahead.
 class FrameComparison {
  public:
-  /// With `keep`, what actual() was given from the first difference on is kept for actual_image().
+  /// With `keep`, what actual() was given from the first difference on is kept for drawn().
   FrameComparison(int frame, int channels, bool keep) : frame_(frame), channels_(channels), keep_(keep) {}
 
   /// The next lines of the expected core. They must be here before those of the actual one.
@@ -75,9 +75,14 @@ class FrameComparison {
   /// Both frames have ended. Nothing where all agree. After failed() what the actual one says of its frame is nothing.
   [[nodiscard]] std::optional<Difference> finish(const FrameEnd& expected, const FrameEnd& actual) const;
 
-  /// After finish(): what the actual core drew, given what the expected one did; the same above the first difference,
-  /// and black where pixels are missing.
-  [[nodiscard]] Image actual_image(const Image& expected) const;
+  /// A picture of which pixels may be missing: they are black, and the last ones.
+  struct Drawn {
+    Image image;
+    std::size_t came = 0;  ///< bytes of `image` that are there, in reading order
+  };
+
+  /// After finish(): what the actual core drew, given what the expected one did; the same above the first difference.
+  [[nodiscard]] Drawn drawn(const Image& expected) const;
 
  private:
   [[nodiscard]] std::optional<Difference> first_of(const FrameEnd& expected, const FrameEnd& actual) const;

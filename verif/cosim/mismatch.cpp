@@ -41,14 +41,17 @@ std::optional<MismatchText> describe_words(const Config& config, const Mismatch&
 
 }  // namespace
 
+bool differs(const ExpectedEvent& e, const kage_rtl_event& a, int value) {
+  if ((e.cares >> value & 1U) == 0) return false;
+  const bool unseen = e.stage == Stage::pixel && (value == at::pixel::z_came || value == at::pixel::color_came) &&
+                      a.value[value] == ~std::uint64_t{0};
+  const std::uint64_t bits = e.value[static_cast<std::size_t>(value)] ^ a.value[value];
+  return !unseen && (bits & (value == e.masked ? e.mask : ~std::uint64_t{0})) != 0;
+}
+
 int first_difference(const ExpectedEvent& e, const kage_rtl_event& a) {
-  for (int i = 0; i < KAGE_RTL_EVENT_VALUES; ++i) {
-    if ((e.cares >> i & 1U) == 0) continue;
-    const auto at = static_cast<std::size_t>(i);
-    const bool unseen = e.stage == Stage::pixel && (i == at::pixel::z_came || i == at::pixel::color_came) &&
-                        a.value[i] == ~std::uint64_t{0};
-    if (!unseen && ((e.value[at] ^ a.value[i]) & (i == e.masked ? e.mask : ~std::uint64_t{0})) != 0) return i;
-  }
+  for (int i = 0; i < KAGE_RTL_EVENT_VALUES; ++i)
+    if (differs(e, a, i)) return i;
   return e.stage != Stage::pixel && e.unit != a.unit ? kUnitValue : -1;
 }
 

@@ -24,6 +24,9 @@ struct Mismatch {
 /// In place of a value's index: the event's unit, of Stage::exit whether the pixel is the last of its line.
 inline constexpr int kUnitValue = KAGE_RTL_EVENT_VALUES;
 
+/// Whether a value of the event that matters is another than the RTL's.
+bool differs(const ExpectedEvent& expected, const kage_rtl_event& actual, int value);
+
 /// The first value that matters and differs, then kUnitValue, or -1.
 int first_difference(const ExpectedEvent& expected, const kage_rtl_event& actual);
 

@@ -71,7 +71,7 @@ class Compared {
   [[nodiscard]] const FrameEnd& end() const { return end_; }
   [[nodiscard]] bool failed() const { return failed_; }
   std::optional<Difference> finish(const FrameEnd& expected) { return comparison_.finish(expected, end_); }
-  [[nodiscard]] Image image(const Image& expected) const { return comparison_.actual_image(expected); }
+  [[nodiscard]] FrameComparison::Drawn drawn(const Image& expected) const { return comparison_.drawn(expected); }
 
  private:
   Core& core_;
@@ -159,9 +159,18 @@ class Comparer {
   }
 
   void show_difference(int frame) {
-    const Image actual = (report_.first_difference->other_state ? *other_ : *own_).image(expected_);
+    const auto [actual, came] = (report_.first_difference->other_state ? *other_ : *own_).drawn(expected_);
     Image difference;
-    if (!expected_.data.empty()) report_.difference = diff_images(expected_, actual, {}, &difference);
+    if (!expected_.data.empty()) {
+      // A pixel that never came has no colour that could differ.
+      Image told = actual;
+      const auto missing = static_cast<std::ptrdiff_t>(came);
+      std::copy(expected_.data.begin() + missing, expected_.data.end(), told.data.begin() + missing);
+      report_.difference = diff_images(expected_, told, {}, &difference);
+      const auto pixels = static_cast<std::ptrdiff_t>(came / static_cast<std::size_t>(actual.channels));
+      report_.missing_pixels = std::int64_t{actual.width} * actual.height - pixels;
+      std::fill(difference.data.begin() + pixels * difference.channels, difference.data.end(), std::uint8_t{0});
+    }
     const auto save = [&](const char* suffix, const Image& image) {
       if (image.data.empty()) return;
       const auto path = options_.out / fmt::format("{}_{:04}{}.png", options_.name, frame, suffix);

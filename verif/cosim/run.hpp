@@ -84,7 +84,8 @@ struct Report {
   std::vector<std::string> pictures;     ///< of a difference that is Difference::ahead none
   std::vector<int> taken;                ///< the frames whose verdict is that of an earlier run
   std::vector<FrameResult> each;         ///< the first kFrameResults frames, and the one that is different
-  std::optional<DiffResult> difference;  ///< of its pictures, where there are any
+  std::optional<DiffResult> difference;  ///< of its pixels that came, where there are pictures
+  std::int64_t missing_pixels = 0;       ///< of its pictures: they are black in _actual and _difference
 
   /// Counts a frame that has its verdict; `first_difference` is set if it is the one that is different. The seconds are
   /// those in each core.

@@ -30,6 +30,7 @@ namespace {
   for (char& c : text)
     if (c == '\n' || c == '\r') c = ' ';
   while (!text.empty() && text.back() == ' ') text.pop_back();
+  if (text.rfind("OpenImageIO could not find a format reader", 0) == 0) text = "no format of pictures that is read";
   throw Error(fmt::format("{}: {}", path.string(), text.empty() ? "cannot be read" : text));
 }
 

@@ -179,6 +179,14 @@ void Reader::write_notes() {
   out_.contents.animations = in_.mNumAnimations;
 }
 
+/// Why no reader takes the file.
+std::string no_format(const std::filesystem::path& path) {
+  const std::string ending = path.extension().string();
+  if (ending == ".yaml" || ending == ".yml") return "a configuration, and no scene: --config takes it";
+  if (ending == ".json") return "JSON, and no scene";
+  return "no format of scenes or meshes that is read";
+}
+
 }  // namespace
 
 RawScene read(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
@@ -196,6 +204,7 @@ RawScene read(const std::filesystem::path& path, const std::string& name, bool a
   if (scene == nullptr) {
     const std::string cause = cause_of(importer.GetErrorString());
     if (cause.find("bad_alloc") != std::string::npos) throw std::bad_alloc();  // Assimp turns it into this text
+    if (cause.rfind("No suitable reader found", 0) == 0) throw Error(name + ": " + no_format(path));
     throw Error(name + ": " + (cause.empty() ? "Assimp cannot read it" : cause));
   }
   return Reader(*scene, name).run();

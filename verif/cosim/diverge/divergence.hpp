@@ -56,7 +56,14 @@ struct RtlTouch {
   bool load = false;        ///< its colour came back from the way out
   std::uint64_t cycle = 0;  ///< core clock edges since the frame's first word was offered
   bool same = true;
-  std::string text;  ///< the values as a person reads them: "z 812, color 10,20,30, class 1, dsf 1, fsf 0"
+  struct Value {
+    std::string text;    ///< "z 812"
+    std::string golden;  ///< "811", or empty where it is the golden model's too
+  };
+  std::vector<Value> values;
+
+  /// "z 812 (golden 811), color 10,20,30, class 1, dsf 1, fsf 0"
+  [[nodiscard]] std::string text() const;
 };
 
 /// Run the frames `from` .. `frame` with monitors and tell what they saw of pixel (x, y) in the last of them.

@@ -98,6 +98,7 @@ Json frames_of(const Page& page, Pictures& pictures) {
     j["golden"] = pictures.add(r.picture);
     j["rtl"] = different ? pictures.add(picture_that_ends(run, "_actual.png")) : Json(nullptr);
     j["difference"] = different ? pictures.add(picture_that_ends(run, "_difference.png")) : Json(nullptr);
+    j["missing"] = different ? run.missing_pixels : 0;
   }
   Json j = Json::array();
   for (Json& f : frames) j.push_back(std::move(f));
@@ -137,7 +138,9 @@ Json told_of(const Page& page) {
       touches.push_back(std::move(j));
     }
     Json rtl = Json::array();
-    for (const cosim::RtlTouch& t : p.rtl)
+    for (const cosim::RtlTouch& t : p.rtl) {
+      Json values = Json::array();
+      for (const cosim::RtlTouch::Value& v : t.values) values.push_back({{"text", v.text}, {"golden", v.golden}});
       rtl.push_back({{"token", t.token},
                      {"nth", t.nth},
                      {"stage", cosim::describe(t.stage)},
@@ -145,7 +148,8 @@ Json told_of(const Page& page) {
                      {"load", t.load},
                      {"cycle", t.cycle},
                      {"same", t.same},
-                     {"text", t.text}});
+                     {"values", std::move(values)}});
+    }
     Json j{{"frame", p.frame},
            {"x", p.history.x},
            {"y", p.history.y},

@@ -26,6 +26,15 @@ for file in out/report.html out/courtyard_0000_actual.png out/courtyard_0000.gtk
   [ -s $file ] || fail "no $file"
 done
 grep -qF "$at" out/report.html || fail "the page does not name the assertion"
+# Pixels that the RTL drew no more are no difference: they are black, and the page counts them.
+PYTHONPATH=$source/verif/test/cli python3 - <<'PY' || fail "pixels that never came are shown as if they had"
+import re, sys
+from png import pixels
+missing = int(re.search(r'"missing":(\d+)', open("out/report.html").read())[1])
+came = 3 * (64 * 48 - missing)
+actual, difference = (pixels(f"out/courtyard_0000_{name}.png") for name in ("actual", "difference"))
+sys.exit(not 0 < missing < 64 * 48 or any(actual[came:]) or any(difference[came:]) or not any(difference[:came]))
+PY
 # A shard's report with one can be joined, and what the RTL says gets into no result.
 expect 1 "$kage" cosim courtyard --size 64x48 --config small.yaml --out out --shard 1/1 --json - --no-divergence
 cp stdout 1.json

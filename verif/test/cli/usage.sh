@@ -50,6 +50,28 @@ line "kage: --config: - is no file's name here, ./- is one; see kage info --help
 line "kage: --csv - and --json -: both are standard output" "$kage" sweep courtyard --csv - --json -
 [ ! -e - ] || fail "a file is called -"
 line "kage: --size: options come after the command; see kage render --help" "$kage" --size 3x3 render courtyard
+# ---- a thing of another command, or in another's place ----
+printf 'LANES: 4\n' >four.yaml
+line "kage: --config: no option of kage model: a configuration is an argument; see kage model --help" "$kage" model --config default
+line "kage: --front-end: no option of kage stream: --level polygons makes the stream that a front end takes; see kage stream --help" "$kage" stream courtyard --front-end rtl
+line "kage: --ot: no such option (did you mean --out?); see kage stream --help" "$kage" stream courtyard --ot x
+line "kage: four.yaml: a configuration, and no scene: --config takes it" "$kage" cosim four.yaml
+cp "$source/scenes/knot.gltf" .
+mkdir pictures
+line "kage: knot.gltf: is a scene; kage render makes pictures of it" "$kage" diff pictures knot.gltf
+line "kage: knot.gltf: is a scene; kage render makes pictures of it" "$kage" diff knot.gltf knot.gltf
+line "kage: four.yaml: is a file, and pictures is a directory: there is nothing to compare" "$kage" diff pictures four.yaml
+line "kage: four.yaml: no format of pictures that is read" "$kage" diff four.yaml four.yaml
+# ---- text that is not YAML, in kage's words ----
+no_yaml() { # TEXT LINE_AND_WORDS
+  printf '%b' "$1" >bad.yaml
+  line "kage: bad.yaml: $2" "$kage" model bad.yaml
+}
+no_yaml 'LANES: [1, 2\nX_BITS: 3\n' 'line 2: a [ has no ]'
+no_yaml 'LANES: {a: 2\nX_BITS: 3\n' 'line 2: a { has no }'
+no_yaml 'LANES: 4: 5\n' 'line 1: not YAML: a line is PARAMETER: value'
+no_yaml 'LANES: *x\n' 'line 1: * wants the name of an anchor, and there is none of this name'
+no_yaml 'LANES: "4\n' 'line 1: LANES: not a whole number'
 line "kage: b: an argument too many; see kage render --help" "$kage" render courtyard b c
 line "kage: --frames: its value is missing; see kage render --help" "$kage" render courtyard --frames
 line "kage: A is missing; see kage diff --help" "$kage" diff

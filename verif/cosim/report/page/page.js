@@ -83,6 +83,7 @@ const Report = (() => {
     else if (frame.taken) text += " Not run this time: an earlier run found that golden model and RTL are the same, bit for bit.";
     else if (frame.same) text += " Golden model and RTL are the same, bit for bit.";
     else if (mode === "difference") text += " Red differs, the brighter the further apart.";
+    if (frame.missing && mode !== "golden") text += ` ${plural(frame.missing, "pixel")} never came: black.`;
     if (frame.error) text += ` ${frame.same ? "Both cores" : "The golden model"} ended it with ${frame.error.text}.`;
     $("caption").textContent = text;
   }
@@ -174,8 +175,11 @@ const Report = (() => {
 
   // With the token where it does not stand below its own.
   function rtlLine(r, own) {
-    const text = `RTL, ${own || !r.state ? "" : `token ${r.token}, `}cycle ${r.cycle}, ${r.stage}${r.load ? " (its colour comes back)" : ""}: ${r.text}`;
-    return make("div", r.same ? text : [text, make("b", " differs")], {class: r.same ? "rtl" : "rtl bad"});
+    const place = `RTL, ${own || !r.state ? "" : `token ${r.token}, `}cycle ${r.cycle}, ${r.stage}${r.load ? " (its colour comes back)" : ""}: `;
+    // Each value that differs is marked, with the golden model's.
+    const values = r.values.flatMap((v, i) => [i ? ", " : "", v.golden ? make("b", `${v.text} (golden ${v.golden})`) : v.text]);
+    const end = r.same || r.values.some((v) => v.golden) ? [] : [make("b", " differs")];
+    return make("div", [place, ...values, ...end], {class: r.same ? "rtl" : "rtl bad"});
   }
 
   function historyList(h, rtl) {
@@ -210,7 +214,8 @@ const Report = (() => {
     const parts = [make("p", `Frame ${number}, column ${x}, line ${y}`, {id: "where"})];
     if (golden) {
       parts.push(make("div", [swatch("golden", golden), ...rtl ? [swatch("RTL", rtl)] : []], {class: "swatches"}));
-      if (differs) parts.push(make("p", "They differ here.", {class: "badly"}));
+      const came = y * frame.width + x < frame.width * frame.height - (frame.missing ?? 0);
+      if (differs) parts.push(make("p", came ? "They differ here." : "The RTL's pixel never came.", {class: "badly"}));
     }
     let told = Explain.told(number, x, y);
     let history = told;
