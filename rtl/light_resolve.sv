@@ -117,6 +117,16 @@ module light_resolve #(
     end
     always_ff @(posedge clk_i) if (go_i) sums_q <= sums;
     assign lost = sums_q;
+`ifndef SYNTHESIS
+    always @(posedge clk_i) begin
+      for (int c = 0; c < Shares; c++) begin
+        for (int l = 0; l < LIGHTS; l++) begin
+          // A sum has bits for all of it: no term is more, of whatever the registers hold at first.
+          assert ((sums[c*SumBits+:SumBits] < SumBits'(products_q[(l*Shares+c)*ProductBits+:ProductBits])) !== 1'b1);
+        end
+      end
+    end
+`endif
   end else begin : gen_one_product
     assign lost = products_q;
   end

@@ -285,9 +285,9 @@ std::vector<RtlTouch> watch_pixel(int from, int frame, const Feed& feed, const C
     // A pixel's state comes behind what was brought to it.
     for (int i = e.stage == Stage::pixel ? at::pixel::z : 0; i < KAGE_RTL_EVENT_VALUES; ++i)
       if ((e.cares >> i & 1U) != 0)
-        t.values.push_back({fmt::format("{} {}", value_name(e.stage, i), value_text(config, e.stage, i, a.value[i])),
-                            differs(e, a, i) ? value_text(config, e.stage, i, e.value[static_cast<std::size_t>(i)])
-                                             : std::string()});
+        t.values.push_back(
+            {fmt::format("{} {}", value_name(e.stage, i), value_text(config, e.stage, i, a.value[i])),
+             differs(e, a, i) ? value_text(config, e.stage, i, e.value[static_cast<std::size_t>(i)]) : std::string()});
     touches.push_back(std::move(t));
     if (e.stage == Stage::out) throw Enough();  // it has left
   };
