@@ -3,14 +3,14 @@
 //
 // What it computes: clamp((start + (x - xl) * slope) >> FRAC, LO, HI) for x = first pixel of the group + lane; the sum
 //   in two's complement of BITS bits, the shift arithmetic. Lanes left of xl get values too, which nobody uses.
-// How: no products. Three set-up clocks make the value at the first group's first lane by subtracting the shifted
-//   slopes that the bits of xl's place in its group select. Then a tree doubles the number of lanes per clock: left
-//   half the same, right half plus slope x half the lanes. A multiplier per lane would be
-//   the core's slowest path.
-// Control: the parent moves the first two set-up stages (set_en_i bit k lets stage k + 1 take what is before it), says
-//   when the second has something (put_i), and moves the walker (load_i: take the set-up's oldest result; step_i: one
-//   group further). The third is a queue of two, as the parent's own, so the walker moves no more of it than a pointer:
-//   put_i is acted on where there is room. The rest is a pipeline that always moves.
+// How: no products. Two set-up clocks, or three where a group has more than four lanes, make the value at the first
+//   group's first lane by subtracting the shifted slopes that the bits of xl's place in its group select. Then a tree
+//   doubles the number of lanes per clock: left half the same, right half plus slope x half the lanes. A multiplier per
+//   lane would be the core's slowest path.
+// Control: the parent moves the set-up stages but the last (set_en_i bit k lets stage k + 1 take what is before it),
+//   says when the last of these has something (put_i), and moves the walker (load_i: take the set-up's oldest
+//   result; step_i: one group further). The last stage is a queue of two, as the parent's own, so the walker moves no
+//   more of it than a pointer: put_i is acted on where there is room. The rest is a pipeline that always moves.
 // Latency: value_o belongs to the group the walker held $clog2(LANES) + 2 clocks ago. Throughput: a group a clock.
 // Cost: about 2 x LANES adders and 3 x LANES registers of BITS bits. The queue's pointers alone are reset.
 `default_nettype none
@@ -24,25 +24,25 @@ module lane_ramp #(
     parameter int HI = (1 << 24) - 2,
     parameter int OUT_BITS = 24,
     localparam int Levels = $clog2(LANES),
-    localparam int OffBits = LANES > 1 ? Levels : 1
+    localparam int OffBits = LANES > 1 ? Levels : 1,
+    localparam int SetStages = LANES > 4 ? 2 : 1  // ahead of the queue
 ) (
     input wire logic clk_i,
     input wire logic rst_ni,
 
-    input wire logic [        1:0] set_en_i,
-    input wire logic               put_i,
-    input wire logic [   BITS-1:0] start_i,
-    input wire logic [   BITS-1:0] slope_i,
-    input wire logic [OffBits-1:0] offset_i,  // of xl in its group
-    input wire logic               load_i,
-    input wire logic               step_i,
+    input wire logic [SetStages-1:0] set_en_i,
+    input wire logic                 put_i,
+    input wire logic [     BITS-1:0] start_i,
+    input wire logic [     BITS-1:0] slope_i,
+    input wire logic [  OffBits-1:0] offset_i,  // of xl in its group
+    input wire logic                 load_i,
+    input wire logic                 step_i,
 
     output logic [LANES*OUT_BITS-1:0] value_o
 );
 
   // ---- set-up: start - offset * slope ------------------------------------------------------------------------------
-  logic [BITS-1:0] start_q, slope_q, low_q, mid_q, high_q;
-  logic [BITS-1:0] part_q, rest_q, slope2_q, first, first_slope;
+  logic [BITS-1:0] start_q, slope_q, low_q, part, set_start, set_slope, first, first_slope;
   logic [4:0] off;
   assign off = LANES > 1 ? 5'(offset_i) : 5'd0;
 
@@ -51,14 +51,30 @@ module lane_ramp #(
       start_q <= start_i;
       slope_q <= slope_i;
       low_q   <= (off[0] ? slope_i : '0) + (off[1] ? slope_i << 1 : '0);
-      mid_q   <= (off[2] ? slope_i << 2 : '0) + (off[3] ? slope_i << 3 : '0);
-      high_q  <= off[4] ? slope_i << 4 : '0;
     end
-    if (set_en_i[1]) begin
-      part_q   <= start_q - low_q;
-      rest_q   <= mid_q + high_q;
-      slope2_q <= slope_q;
+  end
+  assign part = start_q - low_q;
+
+  if (SetStages > 1) begin : gen_wide
+    logic [BITS-1:0] mid_q, high_q, part_q, rest_q, slope2_q;
+    always_ff @(posedge clk_i) begin
+      if (set_en_i[0]) begin
+        mid_q  <= (off[2] ? slope_i << 2 : '0) + (off[3] ? slope_i << 3 : '0);
+        high_q <= off[4] ? slope_i << 4 : '0;
+      end
+      if (set_en_i[1]) begin
+        part_q   <= part;
+        rest_q   <= mid_q + high_q;
+        slope2_q <= slope_q;
+      end
     end
+    assign set_start = part_q - rest_q;
+    assign set_slope = slope2_q;
+  end else begin : gen_narrow
+    logic unused_off;
+    assign unused_off = ^off[4:2];
+    assign set_start  = part;
+    assign set_slope  = slope_q;
   end
 
   logic unused_ready, set_valid;  // the parent's queue says the same
@@ -70,7 +86,7 @@ module lane_ramp #(
       .rst_ni,
       .in_valid_i (put_i),
       .in_ready_o (unused_ready),
-      .in_data_i  ({part_q - rest_q, slope2_q}),
+      .in_data_i  ({set_start, set_slope}),
       .out_valid_o(set_valid),
       .out_ready_i(load_i),
       .out_data_o ({first, first_slope})

@@ -9,8 +9,8 @@
 // Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut
 //   takes one per group of the line; EOL leaves cleared state behind. After reset a sweep of all groups comes first:
 //   what the RAM held never matters.
-// Latency: set-up 3 clocks, walker 1, lane values and RAM $clog2(LANES) + 2, what is found ahead 1, next state 1, write
-//   1. Throughput: a group a clock.
+// Latency: set-up 2 clocks, or 3 where a group has more than four lanes, walker 1, lane values and RAM $clog2(LANES) +
+//   2, what is found ahead 1, next state 1, write 1. Throughput: a group a clock.
 // Hazards: a group is read 4 clocks before its next state is written, and the four results under way are forwarded.
 //   The result right before is not there yet, so depth is compared twice, a clock early: with the stored depth, as if
 //   that result changed nothing, and with the depth that it may bring; moved_q selects the answer. Behind an EOL every
@@ -47,17 +47,19 @@ module pixel_banked #(
   // What stays unchanged: {leaves, tree, kind, count, weight, colour, first group, last group, first lane, last lane}.
   localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
   localparam int SetBits = 2 + KindBits + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
-  // The third stage is a queue of two, and each lane_ramp has one of its own that moves with it: the walker, whose end
+  // The last stage is a queue of two, and each lane_ramp has one of its own that moves with it: the walker, whose end
   // of a span is known late, moves pointers, and the enables of all that lies ahead of it come from the queue's
-  // registers.
-  logic [SetBits-1:0] set_d, set1_q, set2_q, set3;
-  logic [1:0] set_valid_q, set_en;
-  logic set3_room, set3_valid;
+  // registers. Ahead of it are as many stages as lane_ramp has there.
+  localparam int SetStages = LANES > 4 ? 2 : 1;
+  logic [SetBits-1:0] set_d, set_oldest;
+  logic [SetStages*SetBits-1:0] set_q;
+  logic [SetStages-1:0] set_valid_q, set_en;
+  logic set_room, set_valid;
   logic [  X_BITS-1:0] x_last;
   logic [FlatBits-1:0] flat;
   logic [AddrBits-1:0] group_first, group_last;
   logic [OffBits-1:0] lane_first, lane_last;
-  logic take3, tree_here, tree_moving;  // the tree's line is in its buffer; something of it moves
+  logic set_take, tree_here, tree_moving;  // the tree's line is in its buffer; something of it moves
 
   assign x_last = cmd.xr - 1'b1;
   assign flat = SMOOTH > 0 ? '0 : cmd.color[FlatBits-1:0];
@@ -81,19 +83,23 @@ module pixel_banked #(
     lane_first,
     lane_last
   };
-  assign set_en[1] = !set_valid_q[1] || set3_room;
-  assign set_en[0] = set_valid_q != 2'b11 || set3_room;
+  for (genvar k = 0; k < SetStages; k++) begin : gen_set_en
+    assign set_en[k] = !(&set_valid_q[SetStages-1:k]) || set_room;
+  end
   assign cmd_ready_o = set_en[0];
+  // Place k is what stage k takes.
+  logic [SetStages:0] set_has;
+  logic [(SetStages+1)*SetBits-1:0] set_way;
+  assign set_has = {set_valid_q, cmd_valid_i};
+  assign set_way = {set_q, set_d};
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
       set_valid_q <= '0;
     end else begin
-      if (set_en[0]) set_valid_q[0] <= cmd_valid_i;
-      if (set_en[1]) set_valid_q[1] <= set_valid_q[0];
+      for (int k = 0; k < SetStages; k++) if (set_en[k]) set_valid_q[k] <= set_has[k];
     end
-    if (set_en[0]) set1_q <= set_d;
-    if (set_en[1]) set2_q <= set1_q;
+    for (int k = 0; k < SetStages; k++) if (set_en[k]) set_q[k*SetBits+:SetBits] <= set_way[k*SetBits+:SetBits];
   end
 
   stream_fifo #(
@@ -102,12 +108,12 @@ module pixel_banked #(
   ) u_set (
       .clk_i,
       .rst_ni,
-      .in_valid_i (set_valid_q[1]),
-      .in_ready_o (set3_room),
-      .in_data_i  (set2_q),
-      .out_valid_o(set3_valid),
-      .out_ready_i(take3),
-      .out_data_o (set3)
+      .in_valid_i (set_valid_q[SetStages-1]),
+      .in_ready_o (set_room),
+      .in_data_i  (set_way[SetStages*SetBits+:SetBits]),
+      .out_valid_o(set_valid),
+      .out_ready_i(set_take),
+      .out_data_o (set_oldest)
   );
 
   // ---- walker, stage 0 ---------------------------------------------------------------------------------------------
@@ -129,7 +135,7 @@ module pixel_banked #(
     next_end,
     next_lane_first,
     next_lane_last
-  } = set3;
+  } = set_oldest;
 
   logic walk_valid_q, walk_first_q, walk_at_end_q, walk_leaves_q, step;
   logic [ KindBits-1:0] walk_kind_q;
@@ -142,8 +148,8 @@ module pixel_banked #(
 
   assign walk_eol = walk_kind_q == KindEol;
   assign step = walk_valid_q && !walk_at_end_q;
-  assign take3 = set3_valid && !step && (!next_leaves || exit_free_i) && (UNITS == 0 || !next_tree || tree_here);
-  assign exit_take_o = take3 && next_leaves;
+  assign set_take = set_valid && !step && (!next_leaves || exit_free_i) && (UNITS == 0 || !next_tree || tree_here);
+  assign exit_take_o = set_take && next_leaves;
 
   always_ff @(posedge clk_i) begin
     if (!rst_ni) begin
@@ -159,8 +165,8 @@ module pixel_banked #(
       walk_at_end_q <= walk_group_q + 1'b1 == walk_end_q;
       walk_first_q  <= 1'b0;
     end else begin
-      walk_valid_q <= take3;
-      if (take3) begin
+      walk_valid_q <= set_take;
+      if (set_take) begin
         walk_first_q <= 1'b1;
         walk_leaves_q <= next_leaves;
         walk_kind_q <= next_kind;
@@ -199,11 +205,11 @@ module pixel_banked #(
       .clk_i,
       .rst_ni,
       .set_en_i(set_en),
-      .put_i   (set_valid_q[1]),
+      .put_i   (set_valid_q[SetStages-1]),
       .start_i (cmd.z),
       .slope_i (cmd.dz),
       .offset_i(lane_first),
-      .load_i  (take3),
+      .load_i  (set_take),
       .step_i  (step),
       .value_o (lane_z)
   );
@@ -225,11 +231,11 @@ module pixel_banked #(
           .clk_i,
           .rst_ni,
           .set_en_i(set_en),
-          .put_i   (set_valid_q[1]),
+          .put_i   (set_valid_q[SetStages-1]),
           .start_i (cmd.color[c*RampBits+:RampBits]),
           .slope_i (cmd.dcolor[c*RampBits+:RampBits]),
           .offset_i(lane_first),
-          .load_i  (take3),
+          .load_i  (set_take),
           .step_i  (step),
           .value_o (value)
       );
@@ -308,7 +314,7 @@ module pixel_banked #(
         .tree_i,
         .drop_i    (tree_drop_i),
         .here_o    (tree_here),
-        .pass_i    (take3 && next_tree),
+        .pass_i    (set_take && next_tree),
         .rd_en_i   (valid[Last-3]),
         .rd_group_i(addr_read),
         .z_o       (tree_z),
@@ -474,7 +480,7 @@ module pixel_banked #(
   end
 
   // Something is on its way: read, computed, written or leaving.
-  assign moving_o = (set_valid_q & {set3_room, set_en[1]}) != '0 || take3 || valid != '0 || done_valid_q ||
+  assign moving_o = (set_has & {set_room, set_en}) >> 1 != '0 || set_take || valid != '0 || done_valid_q ||
       exit_valid_o || tree_moving;
 
   // ---- assertions --------------------------------------------------------------------------------------------------

@@ -45,6 +45,8 @@ class Ramp {
   static constexpr Shape kOf{parameter<Model>("LANES"), parameter<Model>("BITS"), parameter<Model>("FRAC"),
                              parameter<Model>("LO"),    parameter<Model>("HI"),   parameter<Model>("OUT_BITS")};
 
+  static constexpr std::size_t kStages = kOf.lanes > 4 ? 2 : 1;  // of the set-up but the last
+
   /// A group that the walker held.
   struct Held {
     bool valid;
@@ -64,12 +66,16 @@ class Ramp {
     step_ = walker_.valid && dice_.percent(40);
     load_ = !queue_.empty() && !step_ && !dice_.percent(pause_);
     room_ = queue_.size() < 2;
-    enabled_[1] = !full_[1] || room_;
-    enabled_[0] = !full_[0] || enabled_[1];
+    bool moves = room_;
+    unsigned enables = 0;
+    for (std::size_t k = kStages; k-- > 0;) {
+      enabled_[k] = moves = !full_[k] || moves;
+      enables |= static_cast<unsigned>(moves) << k;
+    }
     offer_ = dice_.percent(80);
     const Span fresh = random_span();
-    top_->set_en_i = static_cast<CData>(enabled_[0] | enabled_[1] << 1);
-    top_->put_i = full_[1] ? 1 : 0;
+    top_->set_en_i = static_cast<CData>(enables);
+    top_->put_i = full_.back() ? 1 : 0;
     top_->load_i = load_ ? 1 : 0;
     top_->step_i = step_ ? 1 : 0;
     put(top_->start_i, fresh.start);
@@ -86,10 +92,11 @@ class Ramp {
     } else if (step_) {
       ++walker_.group;
     }
-    if (full_[1] && room_) queue_.push_back(staged_[1]);
-    if (enabled_[1]) {
-      staged_[1] = staged_[0];
-      full_[1] = full_[0];
+    if (full_.back() && room_) queue_.push_back(staged_.back());
+    for (std::size_t k = kStages; --k > 0;) {
+      if (!enabled_[k]) continue;
+      staged_[k] = staged_[k - 1];
+      full_[k] = full_[k - 1];
     }
     if (enabled_[0]) {
       staged_[0] = fresh;
@@ -114,11 +121,11 @@ class Ramp {
   Dice& dice_;
   Bench<Model> top_;
   int pause_;
-  std::deque<Held> history_;       // newest first
-  std::array<Span, 2> staged_{};   // in each stage of the set-up but the last
-  std::array<bool, 2> full_{};     // whether it has one
-  std::array<bool, 2> enabled_{};  // whether it takes the one before it, this clock
-  std::deque<Span> queue_;         // in the last stage
+  std::deque<Held> history_;             // newest first
+  std::array<Span, kStages> staged_{};   // in each stage of the set-up but the last
+  std::array<bool, kStages> full_{};     // whether it has one
+  std::array<bool, kStages> enabled_{};  // whether it takes the one before it, this clock
+  std::deque<Span> queue_;               // in the last stage
   Held walker_{false, {}, 0};
   bool step_ = false, load_ = false, room_ = false, offer_ = false;  // this clock
 };

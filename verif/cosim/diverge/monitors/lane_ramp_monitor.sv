@@ -9,11 +9,12 @@ module lane_ramp_monitor #(
     parameter int LO = 1,
     parameter int HI = 255,
     parameter int OUT_BITS = 24,
-    parameter int OFF_BITS = 1
+    parameter int OFF_BITS = 1,
+    parameter int SETS = 1
 ) (
     input wire logic                      clk_i,
     input wire logic                      rst_ni,
-    input wire logic [               1:0] set_en_i,
+    input wire logic [          SETS-1:0] set_en_i,
     input wire logic                      put_i,
     input wire logic [          BITS-1:0] start_i,
     input wire logic [          BITS-1:0] slope_i,
@@ -27,8 +28,9 @@ module lane_ramp_monitor #(
   localparam int Delay = $clog2(LANES) + 2;
   localparam int SetBits = 2 * BITS + OFF_BITS;
   // The last set-up stage is a queue of two: of it the oldest and the one behind.
-  logic [SetBits-1:0] set1_q, set2_q, oldest_q, behind_q;
-  bit [1:0] set_known_q;  // something has come in
+  logic [SetBits-1:0] set[SETS+1];  // place k is what stage k takes
+  bit [SETS:0] set_known;  // something has come in
+  logic [SetBits-1:0] oldest_q, behind_q;
   bit oldest_known_q, behind_known_q;
   logic [1:0] held_q;
   logic puts;
@@ -59,15 +61,19 @@ module lane_ramp_monitor #(
     end
   end
 
+  assign set[0] = {start_i, slope_i, offset_i};
+  assign set_known[0] = 1'b1;
+  for (genvar k = 0; k < SETS; k++) begin : gen_set
+    always_ff @(posedge clk_i) if (set_en_i[k]) {set[k+1], set_known[k+1]} <= {set[k], set_known[k]};
+  end
+
   always_ff @(posedge clk_i) begin
-    if (set_en_i[0]) {set1_q, set_known_q[0]} <= {start_i, slope_i, offset_i, 1'b1};
-    if (set_en_i[1]) {set2_q, set_known_q[1]} <= {set1_q, set_known_q[0]};
     held_q <= rst_ni ? held_q + 2'(puts) - 2'(load_i && held_q != '0) : '0;
     if (load_i || held_q == '0) begin
       if (held_q == 2'd2) {oldest_q, oldest_known_q} <= {behind_q, behind_known_q};
-      else {oldest_q, oldest_known_q} <= {set2_q, set_known_q[1]};
+      else {oldest_q, oldest_known_q} <= {set[SETS], set_known[SETS]};
     end
-    if (puts) {behind_q, behind_known_q} <= {set2_q, set_known_q[1]};
+    if (puts) {behind_q, behind_known_q} <= {set[SETS], set_known[SETS]};
     if (load_i) begin
       {start_q, slope_q} <= oldest_q[SetBits-1:OFF_BITS];
       place_q <= LANES > 1 ? -32'(offset) : 0;
@@ -94,7 +100,8 @@ bind lane_ramp lane_ramp_monitor #(
     .LO(LO),
     .HI(HI),
     .OUT_BITS(OUT_BITS),
-    .OFF_BITS(OffBits)
+    .OFF_BITS(OffBits),
+    .SETS(SetStages)
 ) u_monitor (.*);
 
 `default_nettype wire
