@@ -18,8 +18,15 @@ json c.json "j['folder'] == '$models' and j['models'] == [] and j['bytes'] == 0"
 umask 000 # as careless as can be: what kage makes is still nobody else's to write to
 expect 0 env XDG_CACHE_HOME="$PWD/made/by/kage" "$kage" cache
 [ -z "$(find made -perm /022)" ] || fail "others may write to: $(find made -perm /022)"
-cosim 0
+# A home of any name, in which the one model of this test is built: make, the shell, a linker's options and paths in lists have
+# such characters for themselves.
 umask 022
+home="$PWD/my \"home\" of 'kage', 100%:\$HOME #1;&(\`)"
+mkdir "$home"
+umask 000
+expect 0 env -u XDG_CACHE_HOME HOME="$home" "$kage" cosim s.kage --no-report --out out
+umask 022
+rm -r cache && mv "$home/.cache" cache
 model=$(echo "$models"/*.so) manifest=${model%.so}.json
 [ -f "$model" ] && [ -f "$manifest" ] || fail "no model with its manifest: $(ls "$models")"
 [ -z "$(find cache -type f -perm /022)" ] || fail "others may write to: $(find cache -type f -perm /022)"
@@ -88,6 +95,24 @@ if [ "$(id -u)" = 0 ]; then
   chown 0 "$model"
 fi
 cosim 0
+
+# Tools that are there and do not run, and a disk on which nothing may be run, are told as that.
+tools_of() { XDG_CACHE_HOME="$PWD/new" "$@" "$kage" model small.yaml; }
+# shellcheck disable=SC2016 # the variable's name
+VERILATOR_ROOT=/nonexistent trouble '$VERILATOR_ROOT is /nonexistent, and no Verilator is there: unset it' tools_of env
+printf '#!/bin/sh\necho "it lacks its library" >&2\nexit 1\n' >tools/verilator && chmod +x tools/verilator
+trouble 'verilator: it is there and does not run: it lacks its library' tools_of env PATH="$PWD/tools:$PATH"
+chmod -x tools/verilator
+trouble 'verilator: it is there and does not run: Permission denied' tools_of env VERILATOR="$PWD/tools/verilator"
+trouble 'verilator: not found, and RTL models need it' tools_of env VERILATOR=none-such
+mkdir -p noexec
+if unshare -m mount -t tmpfs -o noexec none noexec 2>/dev/null; then
+  # shellcheck disable=SC2016 # of the inner shell
+  trouble "noexec/kage/models: on its file system nothing may be run (noexec)" unshare -m sh -c \
+    'mount -t tmpfs -o noexec,mode=700 none noexec && XDG_CACHE_HOME="$PWD/noexec" exec "$@"' sh "$kage" model small.yaml
+else
+  echo "SKIPPED: no file system can be mounted here, so a cache on one that runs no programs is not tried"
+fi
 
 # List and prune.
 expect 0 "$kage" cache list

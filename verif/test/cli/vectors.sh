@@ -194,6 +194,18 @@ trouble '--check takes no option of writing a pack' "$kage" vectors --check p --
 trouble '--compare takes no option of writing a pack' "$kage" vectors --compare p good.raw --sizes
 mkdir mine2 && echo mine >mine2/README.md
 trouble 'mine2: is not empty and no pack' "$kage" vectors courtyard --out mine2
+# A run that was killed in a new folder leaves its own one alone there, under a number that no process has: it hinders nobody.
+dead=$(sh -c 'echo $$')
+for left in whole unmarked; do # it is killed while it writes, or right after its folder was made
+  mkdir -p "killed-$left/.kage-$dead"
+  [ $left = unmarked ] || { printf '*\n# files that kage has not finished\n' >"killed-$left/.kage-$dead/.gitignore" && echo half >"killed-$left/.kage-$dead/1"; }
+  expect 0 "$kage" vectors courtyard --size 8x6 --frames 1 --config tiny --degrade --no-rtl --out "killed-$left"
+  [ -z "$(find "killed-$left" -name '.kage-*')" ] || fail "killed-$left: $(find "killed-$left")"
+done
+# Somebody's own folder of such a name is kept, and so is the folder that has it.
+mkdir -p "own/.kage-$dead" && echo own >"own/.kage-$dead/file"
+trouble 'own: is not empty and no pack' "$kage" vectors courtyard --size 8x6 --frames 1 --config tiny --degrade --no-rtl --out own
+[ "$(cat "own/.kage-$dead/file")" = own ] || fail "somebody's file is gone"
 [ "$(cat mine2/README.md)" = mine ] || fail "a file of another's is replaced"
 make p courtyard --size 16x12 --frames 1 --config default --no-rtl  # over an older one
 json p/manifest.json 'j["rtl_agrees"] is None'
