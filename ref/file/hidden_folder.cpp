@@ -25,7 +25,8 @@ namespace fs = std::filesystem;
 constexpr const char* kLockName = ".gitignore";
 constexpr std::string_view kPrefix = ".kage-";
 
-/// What the lock's file holds: for git, that nothing here is to be added; for a sweep, that the folder is one of these.
+/// The text of the lock's file: for git, that nothing here is to be added; for a sweep, that the folder is one of
+/// these.
 constexpr std::string_view kMark = "*\n# files that kage has not finished\n";
 
 int open_lock(const fs::path& folder, int flags) {

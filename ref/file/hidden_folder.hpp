@@ -30,7 +30,7 @@ class HiddenFolder {
   /// A name in the folder that no other call returns, with this extension.
   [[nodiscard]] std::filesystem::path new_name(const std::filesystem::path& extension) const;
 
-  /// Removes the hidden folders in `parent` whose processes have died. What cannot be removed stays.
+  /// Removes the hidden folders in `parent` whose processes have died. One that cannot be removed stays.
   static void sweep(const std::filesystem::path& parent);
 
   /// Whether a folder of this name is one of kage's.

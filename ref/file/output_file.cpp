@@ -63,7 +63,7 @@ class OutputFile::Buffer : public std::streambuf {
 
   void close() {
     flush();
-    // What can only be written, as a pipe, has no disk to wait for.
+    // A file that can only be written, as a pipe, has no disk to wait for.
     if (::fsync(fd_) != 0 && errno != EINVAL && errno != ENOTSUP && errno != EROFS) fail_write(name_, errno);
     const int fd = fd_;
     fd_ = -1;

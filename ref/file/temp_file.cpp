@@ -48,7 +48,7 @@ std::shared_ptr<HiddenFolder> hidden_beside(const fs::path& target, const fs::pa
   }
 }
 
-/// Of what has the name itself; none if nothing has.
+/// The file that has the name itself; none if nothing has.
 std::optional<FileId> id_of(const fs::path& path) {
   struct stat st {};
   if (lstat(path.c_str(), &st) != 0) return std::nullopt;

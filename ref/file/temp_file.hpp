@@ -16,7 +16,7 @@
 
 namespace kage {
 
-/// What a file is, whatever name it has. The number of one that was removed may be another's: so there is more than
+/// A file, whatever name it has. The number of one that was removed may be another's: so there is more than
 /// that.
 struct FileId {
   std::uint64_t device = 0;
@@ -49,13 +49,13 @@ class TempFile {
   [[nodiscard]] std::filesystem::path target() const;
   /// The name that was asked for, from the root.
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
-  /// Whether the target is a device or a pipe. What it got cannot be undone.
+  /// Whether the target is a device or a pipe. Bytes that it got cannot be taken back.
   [[nodiscard]] bool is_device() const { return device_; }
 
   /// The file gets its name, or goes; what was there is kept aside, to be put back. Throws Error if it cannot, as where
   /// the name is that of a folder, a link or a device by now: nothing but a file is replaced or removed.
   void place();
-  /// What was there is needed no more.
+  /// The file that was there is needed no more.
   void settle();
   void commit() {
     place();

@@ -279,7 +279,7 @@ Picture picture_of(const Image& image) {
   return p;
 }
 
-/// What it takes to compare one of two files, in bytes.
+/// The memory that it takes to compare one of two files, in bytes.
 std::uint64_t bytes_of(const PictureReader& reader, bool whole, const DiffOptions& options) {
   const Picture& head = reader.head();
   const auto height = static_cast<std::uint64_t>(head.height);

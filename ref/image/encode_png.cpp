@@ -13,7 +13,7 @@
 namespace kage {
 namespace {
 
-/// libpng is C: an exception may not pass through it. What the file throws is kept until libpng has returned, and
+/// libpng is C: an exception may not pass through it. An exception of the file is kept until libpng has returned, and
 /// nothing more is written from then on.
 class PngEncoder : public ImageEncoder {
  public:

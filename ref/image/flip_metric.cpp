@@ -147,7 +147,7 @@ double sum_of(const Kernel& k) {
   return sum;
 }
 
-/// What an eye at this distance sees of a channel (section 4.1.1).
+/// A channel as an eye at this distance sees it (section 4.1.1).
 Plane seen(const Plane& plane, Size size, const Sensitivity& s) {
   constexpr double kMostB = 0.04;
   const int radius =

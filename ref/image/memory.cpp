@@ -33,7 +33,7 @@ std::uint64_t free_bytes() {
   return kNoLimit;
 }
 
-/// What the control groups leave (version 2): each folder on the way up may have a limit.
+/// The bytes that control groups leave (version 2): each folder on the way up may have a limit.
 std::uint64_t bytes_of_groups() {
   std::ifstream in("/proc/self/cgroup");
   std::uint64_t least = kNoLimit;
@@ -50,7 +50,7 @@ std::uint64_t bytes_of_groups() {
   return least;
 }
 
-/// What `ulimit` leaves of what is counted in column `at` of /proc/self/statm.
+/// The bytes that `ulimit` leaves of those that are counted in column `at` of /proc/self/statm.
 std::uint64_t bytes_of_limit(__rlimit_resource resource, int at) {
   rlimit limit{};
   if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return kNoLimit;

@@ -21,9 +21,9 @@ struct Picture {
     Sample sample = Sample::kU8;
     std::size_t offset = 0;  ///< bytes from the pixel's first
   };
-  /// What a file says beside its pixels, as words to compare: ("colour space", "sRGB").
+  /// The notes of a file beside its pixels, as words to compare: ("colour space", "sRGB").
   using Note = std::pair<std::string, std::string>;
-  /// Of a note for which the format has no place: what OpenImageIO gives then is its guess, and the other file's is
+  /// A note for which the format has no place: the words of OpenImageIO are a guess then, and the other file's is
   /// taken.
   static constexpr const char* kNoPlace = "no place";
 
@@ -91,12 +91,13 @@ std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, i
 /// All of a reader's lines.
 Picture whole_picture(PictureReader& reader);
 
-/// Read a flat picture; alpha is taken as stored. Of a file that holds several, as a multi-part EXR, `part` is the
+/// Read a flat picture; alpha is taken as stored. Where a file holds several, as a multi-part EXR, `part` is the
 /// number of one, from 0; without it (-1) such a file is refused. Throws Error, also where that takes more memory than
 /// half of what there is.
 Picture load_picture(const std::filesystem::path& path, int part = -1);
 
-/// What makes two pictures incomparable (size, place, channels, types, notes), in words; "" if nothing does.
+/// The difference that makes two pictures incomparable (size, place, channels, types, notes), in words; "" if nothing
+/// does.
 std::string unlike(const Picture& a, const Picture& b);
 
 }  // namespace kage

@@ -8,21 +8,21 @@
 
 namespace kage {
 
-/// What OpenImageIO does not tell of a PNG file.
+/// Notes of a PNG file that OpenImageIO does not tell.
 struct PngChunks {
   int bits = 0;                ///< of a stored value, where it is the value's: not with a palette; 0: unknown
   std::string chromaticities;  ///< cHRM, eight numbers in 1/100000
   std::string gamma;           ///< gAMA, in 1/100000: OpenImageIO rounds it
   std::string intent;          ///< sRGB: the rendering intent
-  /// What else says how bright and of which colour a value is, in words: always the same ones, in the same order; the
-  /// numbers are "" where the file has none.
+  /// All else that says how bright and of which colour a value is, in words: always the same ones, in the same order;
+  /// the numbers are "" where the file has none.
   std::vector<std::pair<std::string, std::string>> more{
       {"CICP", ""}, {"number of significant bits", ""}, {"mastering display", ""}, {"content light level", ""}};
   bool animated = false;    ///< more pictures than the first
   bool interlaced = false;  ///< it is there in seven parts, so no line is known before the last part
 };
 
-/// Looks at the chunks before the picture. Of a file that is no PNG, or a broken one, it tells what there is.
+/// Looks at the chunks before the picture. In a file that is no PNG, or a broken one, it takes as many as there are.
 PngChunks read_png_chunks(const std::filesystem::path& path);
 
 }  // namespace kage

@@ -76,7 +76,7 @@ bool gif_is_transparent(Bytes& file) {
   return false;
 }
 
-/// What of a Truevision file does not come through; "" if all does.
+/// The part of a Truevision file that does not come through; "" if all does.
 std::string lost_of_targa(Bytes& file) {
   const std::uint32_t type = file.byte(2) & 7;
   const std::uint32_t alpha_bits = file.byte(17) & 15;

@@ -90,7 +90,7 @@ std::string photometric_words(int number) {
   return number == kCmyk ? "CMYK" : "RGB";
 }
 
-/// What changes the meaning of the same numbers.
+/// Notes that change the meaning of the same numbers.
 std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks& png, std::string_view format) {
   const int bits = spec.get_int_attribute("oiio:BitsPerSample", png.bits);
   const std::string chromaticities = note_text(spec, "chromaticities");
@@ -172,7 +172,7 @@ Picture described(OIIO::ImageInput& input, const std::filesystem::path& path, co
     picture.pixel_bytes += size_of(sample);
   }
   picture.alpha = spec.alpha_channel;
-  // Of a GIF it is a number behind the last channel.
+  // In a GIF it is a number behind the last channel.
   if (picture.alpha >= spec.nchannels) picture.alpha = spec.channelindex("A");
   picture.notes = notes_of(spec, png, input.format_name());
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)

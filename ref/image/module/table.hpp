@@ -33,7 +33,7 @@ struct PictureModule : ModuleHead {
   std::optional<std::uint64_t> (*yee)(int width, int height, float* a, float* b);
 };
 
-// What the module is made of, in its own files.
+// The parts of the module, in its own files.
 namespace picture_module {
 std::unique_ptr<PictureReader> open(const std::filesystem::path& path, int part);
 std::unique_ptr<ImageEncoder> encode_exr(OutputFile& out, const std::string& name, int width, int height, int channels);

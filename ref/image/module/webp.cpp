@@ -11,7 +11,7 @@
 namespace kage::picture_module {
 namespace {
 
-/// What the chunk of the RIFF file holds that has this name; nothing if there is none.
+/// The bytes of the chunk of the RIFF file that has this name; nothing if there is none.
 std::span<const unsigned char> chunk(std::span<const unsigned char> file, const char* name) {
   std::size_t at = 12;
   while (at + 8 <= file.size()) {

@@ -17,7 +17,7 @@ struct WebpHead {
   std::string profile;  ///< of chunk ICCP; empty if there is none
 };
 
-/// Of a file's bytes. Throws Error that names the file: it is damaged, or animated.
+/// The head that a file's bytes begin with. Throws Error that names the file: it is damaged, or animated.
 WebpHead webp_head(const std::filesystem::path& path, std::span<const unsigned char> file);
 
 /// All pixels, red, green, blue and, if the file has it, alpha, as they are stored. Throws Error if they are damaged.

@@ -121,7 +121,7 @@ void MtlReader::read_color(std::optional<glm::dvec3>& to) {
   to = count == 1 ? glm::dvec3(color.x) : color;
 }
 
-/// What a colour of light a translucent material lets through: kage draws white.
+/// The colour of light that a translucent material lets through: kage draws white.
 void MtlReader::read_filter() {
   std::optional<glm::dvec3> filter;
   read_color(filter);

@@ -15,7 +15,7 @@
 
 namespace kage::scene {
 
-/// What of a material is drawn, and what is not.
+/// A material: the part of it that is drawn, and words on the rest.
 struct MtlMaterial {
   glm::dvec3 color{kGrey};  ///< Kd, or Ke over a black Kd
   double alpha = 1;         ///< by d, or Tr where there is no d

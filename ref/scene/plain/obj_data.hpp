@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an OBJ file holds: read by obj_file.cpp, made a scene of by obj_scene.cpp.
+// An OBJ file's contents: read by obj_file.cpp, made a scene of by obj_scene.cpp.
 #pragma once
 
 #include <cstdint>

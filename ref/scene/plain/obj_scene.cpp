@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an OBJ file holds as a scene: a node for each object, a primitive for each run of faces of one material.
+// An OBJ file's contents as a scene: a node for each object, a primitive for each run of faces of one material.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -25,7 +25,7 @@ class ObjBuilder {
     std::uint32_t primitive = 0;  // numbered through all meshes
     ObjFace first;
   };
-  /// What a vertex of the file became when it was last used.
+  /// The vertex of the primitive that a vertex of the file became when it was last used.
   struct Last {
     std::uint32_t primitive = kObjNone;
     std::uint32_t normal = kObjNone;

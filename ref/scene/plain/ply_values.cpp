@@ -17,7 +17,7 @@
 namespace kage::scene {
 namespace {
 
-/// Of a whole type, the least and the largest value.
+/// The least and the largest value of a whole type.
 std::pair<double, double> range_of(PlyType type) {
   const auto bits = static_cast<int>(8 * size_of(type));
   const bool is_signed = type == PlyType::kInt8 || type == PlyType::kInt16 || type == PlyType::kInt32;

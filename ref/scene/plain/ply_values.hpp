@@ -12,7 +12,7 @@ namespace kage::scene {
 
 class PlyValues {
  public:
-  /// Of the file whose header `lines`, which must stay, has just read.
+  /// Reads the file whose header `lines`, which must stay, has just read.
   PlyValues(TextLines& lines, PlyHeader::Form form);
 
   /// Goes to an element, the `number`-th of its kind; in text, to the next line that is not blank. Throws Error where

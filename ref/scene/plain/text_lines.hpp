@@ -12,7 +12,7 @@
 
 namespace kage::scene {
 
-/// What parts words.
+/// The characters that part words.
 inline constexpr std::string_view kBlanks = " \t\v\f";
 
 /// The next word of `rest`, which loses it; empty at the end. Blanks, tabs, vertical tabs and form feeds part words.
@@ -21,8 +21,8 @@ std::string_view take_word(std::string_view& rest);
 /// Without the blanks round it.
 std::string_view trimmed(std::string_view text);
 
-/// The nearest float of a decimal number, with or without sign, point and exponent; not a number and infinity too. What
-/// is too small for a float is 0 or a denormal. None for any other word, and for a number that is too large.
+/// The nearest float of a decimal number, with or without sign, point and exponent; not a number and infinity too. A
+/// number too small for a float is 0 or a denormal. None for any other word, and for a number that is too large.
 std::optional<float> number_of(std::string_view word);
 
 /// A decimal integer with or without sign; none for any other word, or beyond 64 bits.
@@ -30,8 +30,8 @@ std::optional<std::int64_t> integer_of(std::string_view word);
 
 class TextLines {
  public:
-  /// Of a text, which must stay where it is. A byte order mark of UTF-8 is passed over. Throws Error if it is UTF-16.
-  /// `file` is how messages call it.
+  /// Takes a text, which must stay where it is. A byte order mark of UTF-8 is passed over. Throws Error if it is
+  /// UTF-16. `file` is how messages call it.
   TextLines(std::string_view text, std::string file);
 
   /// Goes to the next line, the first at first. It ends at a line feed, a carriage return, or both. False at the end.
