@@ -44,8 +44,8 @@ void sync_file(const std::filesystem::path& path, const std::string& name) {
   if (error != 0) fail_write(name, error);
 }
 
-ReadOnly::ReadOnly(const std::filesystem::path& file)
-    : name_(file.string()), fd_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+ReadOnly::ReadOnly(const std::filesystem::path& file, const std::string& name)
+    : name_(name.empty() ? file.string() : name), fd_(open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (fd_ < 0) throw Error(fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What reading and writing by descriptors has in common: no error is passed over.
+// Reading and writing by descriptors: no error is passed over.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ void sync_file(const std::filesystem::path& path, const std::string& name);
 /// A file that is read, from its beginning.
 class ReadOnly {
  public:
-  /// Throws Error that names the file if it cannot be opened.
-  explicit ReadOnly(const std::filesystem::path& file);
+  /// Throws Error that names the file, as `name` where that is given, and the cause if it cannot be opened.
+  explicit ReadOnly(const std::filesystem::path& file, const std::string& name = {});
   ~ReadOnly();
   ReadOnly(const ReadOnly&) = delete;
   ReadOnly& operator=(const ReadOnly&) = delete;
 
-  /// The next bytes, `size` at most; 0 at the end. Throws Error that names the file.
+  /// The next bytes, `size` at most; 0 at the end. Throws Error that names the file and the cause.
   std::size_t read(char* data, std::size_t size) const;
 
  private:

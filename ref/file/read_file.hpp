@@ -6,7 +6,7 @@
 
 namespace kage {
 
-/// The whole of a file that kage made or has with it. Throws Error that names it.
-std::string read_file(const std::filesystem::path& path);
+/// The whole of a file. Throws Error that names it, as `name` where that is given, and the cause.
+std::string read_file(const std::filesystem::path& path, const std::string& name = {});
 
 }  // namespace kage

@@ -5,12 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <fstream>
 #include <map>
 #include <set>
 #include <string_view>
 
 #include "file/extension.hpp"
+#include "file/plain_io.hpp"
 #include "file/regular_file.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
@@ -89,31 +89,28 @@ FolderPair pair_folders(const fs::path& a, const fs::path& b, const std::vector<
 }
 
 std::string diff_bytes(const fs::path& a, const fs::path& b) {
-  const auto opened = [](const fs::path& path) {
-    check_regular(path);
-    std::ifstream in(path, std::ios::binary);
-    if (!in) throw Error(fmt::format("{}: cannot be read", path.string()));
-    return in;
-  };
-  std::ifstream in_a = opened(a);
-  std::ifstream in_b = opened(b);
+  check_regular(a);
+  check_regular(b);
+  const ReadOnly in_a(a);
+  const ReadOnly in_b(b);
   std::vector<char> part_a(std::size_t{1} << 16);
   std::vector<char> part_b(part_a.size());
-  const auto read = [](std::ifstream& in, std::vector<char>& part, const fs::path& path) {
-    in.read(part.data(), static_cast<std::streamsize>(part.size()));
-    if (in.bad()) throw Error(fmt::format("{}: cannot be read", path.string()));
-    return in.gcount();
+  // A piece is shorter than the others at the file's end alone.
+  const auto read = [](const ReadOnly& in, std::vector<char>& part) {
+    std::size_t size = 0;
+    while (const std::size_t n = in.read(part.data() + size, part.size() - size)) size += n;
+    return static_cast<std::ptrdiff_t>(size);
   };
   for (std::uint64_t at = 0;; at += part_a.size()) {
-    const std::streamsize size_a = read(in_a, part_a, a);
-    const std::streamsize size_b = read(in_b, part_b, b);
+    const std::ptrdiff_t size_a = read(in_a, part_a);
+    const std::ptrdiff_t size_b = read(in_b, part_b);
     const auto [stop, other] =
         std::mismatch(part_a.begin(), part_a.begin() + size_a, part_b.begin(), part_b.begin() + size_b);
     const auto same = static_cast<std::uint64_t>(stop - part_a.begin());
     if (stop - part_a.begin() != size_a && other - part_b.begin() != size_b)
       return fmt::format("byte {} differs", at + same);
     if (size_a != size_b) return fmt::format("{} ends at byte {}", size_a < size_b ? "A" : "B", at + same);
-    if (size_a < static_cast<std::streamsize>(part_a.size())) return "";
+    if (size_a < static_cast<std::ptrdiff_t>(part_a.size())) return "";
   }
 }
 

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <vector>
 
+#include "file/plain_io.hpp"
 #include "kage/error.hpp"
 
 namespace kage {
@@ -50,7 +48,7 @@ void check_depth(std::string_view text, const std::string& name) {
   }
 }
 
-/// What an exception of the parser says of a text.
+/// The words of the parser's exception on a text.
 [[noreturn]] void fail_parse(std::string_view text, const std::string& name, const Ordered::exception& e) {
   if (const auto* const where = dynamic_cast<const Ordered::parse_error*>(&e)) {
     const std::size_t at = where->byte == 0 ? 0 : where->byte - 1;
@@ -85,15 +83,13 @@ template Ordered parse_json(std::string_view, const std::string&, std::size_t);
 
 Ordered read_json(const std::filesystem::path& file) {
   const std::string name = file.string();
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw Error(fmt::format("{}: cannot be read: {}", name, std::strerror(errno)));
+  const ReadOnly in(file);
   std::string text;
   std::vector<char> piece(std::size_t{1} << 16);
-  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0) {
-    text.append(piece.data(), static_cast<std::size_t>(in.gcount()));
+  while (const std::size_t n = in.read(piece.data(), piece.size())) {
+    text.append(piece.data(), n);
     check_bytes(text.size(), kJsonBytes, name);
   }
-  if (in.bad()) throw Error(fmt::format("{}: cannot be read", name));
   return parse_json<Ordered>(text, name);
 }
 

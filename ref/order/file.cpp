@@ -12,6 +12,7 @@
 #include <array>
 #include <bit>
 #include <boost/crc.hpp>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -151,7 +152,7 @@ OrderTree OrderTree::load(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, ec)) fail("no such file");
   std::ifstream in(path, std::ios::binary);
   const std::uint64_t size = std::filesystem::file_size(path, ec);
-  if (!in || ec) fail("cannot be read");
+  if (!in || ec) fail(std::string("cannot be read: ") + std::strerror(errno));
 
   std::array<char, 16> head{};
   std::array<std::uint64_t, kArrays> counts{};

@@ -3,9 +3,8 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "cosim/model/sha256.hpp"
+#include "file/plain_io.hpp"
 #include "json/foreign_json.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -17,13 +16,12 @@ namespace kage::vectors {
 namespace {
 
 std::string hash_of(const std::filesystem::path& path, const std::function<void()>& wait) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error(path.string() + ": cannot be read");
+  const ReadOnly in(path);
   cosim::Sha256 hash;
   std::vector<char> piece(1 << 20);
-  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())) || in.gcount() > 0) {
+  while (const std::size_t n = in.read(piece.data(), piece.size())) {
     wait();
-    hash.add_piece(std::span<const char>(piece.data(), static_cast<std::size_t>(in.gcount())));
+    hash.add_piece(std::span<const char>(piece.data(), n));
   }
   return hash.take();
 }

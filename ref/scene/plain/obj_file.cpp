@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "file/read_file.hpp"
 #include "number/counted.hpp"
 #include "scene/import.hpp"
 #include "scene/notes.hpp"
@@ -238,7 +239,7 @@ void ObjReader::write_notes() {
 }  // namespace
 
 RawScene import_obj(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
-  const std::string text = file_bytes(path, name);
+  const std::string text = read_file(path, name);
   return ObjReader(text, path, name, allow_outside).run();
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "scene/notes.hpp"
 #include "scene/plain/statements.hpp"
@@ -42,7 +43,7 @@ SideFiles::Found ObjLibraries::find_file(const std::string& name) const {
 void ObjLibraries::read(const SideFiles::Found& file, std::vector<std::string>& notes) {
   if (!read_.insert(file.path.string()).second) return;
   const std::string name = file.path.filename().string();
-  read_mtl(file_bytes(file.path, name), name, materials_, notes);
+  read_mtl(read_file(file.path, name), name, materials_, notes);
 }
 
 void ObjLibraries::add(std::string_view names, std::vector<std::string>& notes) {

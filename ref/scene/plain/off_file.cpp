@@ -8,6 +8,7 @@
 #include <limits>
 #include <utility>
 
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "scene/import.hpp"
@@ -111,7 +112,7 @@ void OffReader::read_kind() {
 void OffReader::read_counts() {
   vertices_ = in_.whole(take_word(left_), "count of vertices");
   faces_ = in_.whole(take_word(left_), "count of faces");
-  // That of edges may be missing, and means nothing.
+  // The number of edges may be missing, and means nothing.
   if (const std::string_view edges = take_word(left_); !edges.empty()) (void)in_.whole(edges, "count of edges");
   if (const std::string_view word = take_word(left_); !word.empty())
     in_.fail(fmt::format("'{}' stands behind the counts of vertices, faces and edges", one_line(word, 40)));
@@ -136,7 +137,7 @@ void OffReader::read_vertex(std::uint32_t number) {
   vertex_colors_.push_back(read_color(vertex_whole_));
 }
 
-/// What is left of the line: none, a place in a list of colours, or three or four numbers.
+/// The rest of the line: none, a place in a list of colours, or three or four numbers.
 OffReader::Color OffReader::read_color(float& largest_whole) {
   Color color;
   std::size_t count = 0;
@@ -203,7 +204,7 @@ void OffReader::write_notes(std::size_t thin) {
 }  // namespace
 
 RawScene import_off(const std::filesystem::path& path, const std::string& name) {
-  const std::string text = file_bytes(path, name);
+  const std::string text = read_file(path, name);
   return OffReader(text, path, name).run();
 }
 

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/plain/plain_mesh.hpp"
 
-#include <fstream>
 #include <utility>
 
-#include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "scene/polygon.hpp"
 
@@ -34,16 +32,6 @@ PlainMesh apart(const PlainMesh& mesh) {
 }
 
 }  // namespace
-
-std::string file_bytes(const std::filesystem::path& path, const std::string& name) {
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes;
-  std::string chunk(std::size_t{1} << 20, '\0');
-  while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())) || in.gcount() > 0)
-    bytes.append(chunk, 0, static_cast<std::size_t>(in.gcount()));
-  if (in.bad() || !in.eof()) throw Error(name + ": cannot be read");
-  return bytes;
-}
 
 bool append_face(RawPrimitive& p, std::span<const std::uint32_t> vertices) {
   if (vertices.size() < 3) return false;

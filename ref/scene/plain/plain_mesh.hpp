@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the readers of plain formats (OBJ, PLY, STL, OFF) share: a file's bytes, and a mesh as these formats have it.
+// The mesh that the readers of plain formats (PLY, STL, OFF) share, as these formats have it.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +17,6 @@ namespace kage::scene {
 
 /// The colour of what has none in OBJ and OFF, in each channel. In PLY and STL it is white.
 inline constexpr double kGrey = 0.6;
-
-/// All bytes of a file. Throws Error if it cannot be read.
-std::string file_bytes(const std::filesystem::path& path, const std::string& name);
 
 /// Appends a face of the file to a primitive, cut into triangles. False, and nothing happens, where it has less than
 /// three corners. `vertices` are of the primitive.

@@ -10,6 +10,7 @@
 #include <map>
 #include <utility>
 
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "scene/import.hpp"
@@ -20,7 +21,7 @@
 namespace kage::scene {
 namespace {
 
-/// What a property is for.
+/// The use of a property.
 enum class Role : std::uint8_t { kX, kY, kZ, kNormalX, kNormalY, kNormalZ, kRed, kGreen, kBlue, kAlpha, kNone };
 
 Role role_of(const std::string& name) {
@@ -289,7 +290,7 @@ void PlyReader::write_notes() {
 }  // namespace
 
 RawScene import_ply(const std::filesystem::path& path, const std::string& name) {
-  const std::string text = file_bytes(path, name);
+  const std::string text = read_file(path, name);
   return PlyReader(text, path, name).run();
 }
 

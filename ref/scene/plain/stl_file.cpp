@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "scene/import.hpp"
@@ -204,7 +205,7 @@ RawScene read_binary(std::string_view bytes, const std::string& stem, const std:
 }  // namespace
 
 RawScene import_stl(const std::filesystem::path& path, const std::string& name) {
-  const std::string bytes = file_bytes(path, name);
+  const std::string bytes = read_file(path, name);
   if (is_text(bytes)) return StlTextReader(bytes, name).run();
   return read_binary(bytes, path.stem().string(), name);
 }

@@ -6,8 +6,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -42,6 +44,13 @@ std::string telling_line(const std::string& said) {
   }
   if (last.empty()) return "no cause was given";
   return error.empty() ? last : error;
+}
+
+/// The limit that a build met, which its tools tell in lines before the one that counts as the cause; else none.
+std::string limit_in(const std::string& told) {
+  for (const int cause : {EMFILE, ENFILE, ENOSPC, EDQUOT, ENOMEM})
+    if (told.find(std::strerror(cause)) != std::string::npos) return std::strerror(cause);
+  return {};
 }
 
 /// `text` with the path `to` wherever it has `from`.
@@ -147,10 +156,12 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
 [[noreturn]] void refuse_build(const fs::path& work, const fs::path& data, const std::string& said,
                                const fs::path& log) {
   const fs::path copy = work / "source";
-  const std::string cause = with_path(telling_line(said), copy, data);
+  std::string cause = with_path(telling_line(said), copy, data);
   // What build.py said is less than its log has; but a log that found no room on the disk is empty.
   const fs::path own = work / "build/build.log";
   const std::string told = fs::exists(own) ? read_file(own) : "";
+  const std::string limit = limit_in(told.empty() ? said : told);
+  if (cause.find(limit) == std::string::npos) cause += ": " + limit;
   const bool kept = keep_log(with_path(told.empty() ? said : told, copy, data), work / "log", log);
   throw Error(
       fmt::format("RTL model: the build failed: {}{}", cause, kept ? fmt::format(" (log: {})", log.string()) : ""));

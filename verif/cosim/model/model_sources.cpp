@@ -7,14 +7,16 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <cstdio>
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
-#include <memory>
+#include <iterator>
+#include <sstream>
 #include <system_error>
+#include <thread>
 
+#include "cosim/model/process.hpp"
 #include "cosim/model/sha256.hpp"
 #include "file/meant.hpp"
 #include "file/read_file.hpp"
@@ -26,39 +28,63 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What `command` prints; empty if it prints nothing. Throws Error if no shell can be started for it.
-std::string output_of(const std::string& command) {
-  const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-  if (!pipe) throw Error(fmt::format("`{}`: cannot be started: {}", command, std::strerror(errno)));
-  std::string text;
-  std::array<char, 512> buffer{};
-  while (true) {
-    const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe.get());
-    text.append(buffer.data(), n);
-    if (n == buffer.size()) continue;
-    if (ferror(pipe.get()) == 0 || errno != EINTR) return text;
-    clearerr(pipe.get());  // a signal: whoever waits for it asks
+using Command = std::vector<std::string>;
+
+/// All that a program says, or what it says on standard output. Throws NotStarted, and what `progress` throws.
+std::string output_of(const Command& command, Said kept, const BuildProgress& progress) {
+  Process process(command, kept);
+  for (bool ok = false; !process.ended(ok);) {
+    if (progress) progress(0);  // an interruption ends it
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return process.said();
+}
+
+/// The value of an environment variable; `otherwise` if it has none.
+std::string value_of(const char* variable, const char* otherwise) {
+  const char* const value = std::getenv(variable);
+  return value != nullptr && *value != '\0' ? value : otherwise;
+}
+
+/// A program that a variable may name, with options of it, as a shell parts them.
+Command words_of(const char* variable, const char* otherwise, const char* option) {
+  std::istringstream words(value_of(variable, otherwise));
+  Command command{std::istream_iterator<std::string>(words), {}};
+  if (command.empty()) command.emplace_back(otherwise);
+  command.emplace_back(option);
+  return command;
+}
+
+Command verilator_command() { return {value_of("VERILATOR", "verilator"), "--version"}; }
+Command yosys_command() { return words_of("YOSYS", "yosys", "-V"); }
+Command compiler_command() { return words_of("CXX", "c++", "--version"); }
+
+/// No such program is there: another cause, as too many open files, says nothing of that.
+bool is_missing(const NotStarted& e) { return e.cause() == ENOENT || e.cause() == ENOTDIR || e.cause() == EACCES; }
+
+/// The words on standard output; none if there is no such program. Throws NotStarted.
+std::string version_of(const Command& command, const BuildProgress& progress) {
+  try {
+    return output_of(command, Said::output, progress);
+  } catch (const NotStarted& e) {
+    if (is_missing(e)) return {};
+    throw;
   }
 }
 
-constexpr const char* kVerilator = "\"${VERILATOR:-verilator}\" --version";
-constexpr const char* kYosys = "${YOSYS:-yosys} -V";
-constexpr const char* kCompiler = "${CXX:-c++} --version";
-
-/// The first line on standard output.
-std::string version_of(const char* command) { return output_of(std::string(command) + " 2>/dev/null"); }
-
-/// Why Verilator, which is there, says no version: the first line of all that it says. Empty if it is not there. Its
-/// exit code does not tell: that of a program whose library cannot be opened is the same as that of none.
-std::string failure_of_verilator() {
-  const std::string said = output_of(
-      fmt::format("if command -v \"${{VERILATOR:-verilator}}\" >/dev/null 2>&1; then {} 2>&1; fi", kVerilator));
-  return said.substr(0, said.find('\n'));
+/// Why Verilator, which is there, says no version: the first line of all that it says. Empty if it is not there.
+std::string failure_of_verilator(const BuildProgress& progress) {
+  try {
+    const std::string said = output_of(verilator_command(), Said::all, progress);
+    return said.empty() ? "it says nothing" : said.substr(0, said.find('\n'));
+  } catch (const NotStarted& e) {
+    return e.cause() == EACCES ? std::strerror(EACCES) : "";
+  }
 }
 
-[[noreturn]] void refuse_verilator() {
+[[noreturn]] void refuse_verilator(const BuildProgress& progress) {
   const char* const root = std::getenv("VERILATOR_ROOT");
-  const std::string why = failure_of_verilator();
+  const std::string why = failure_of_verilator(progress);
   // Verilator looks for its own program there and nowhere else.
   const auto has = [&](const char* program) { return fs::exists(fs::path(root) / program); };
   if (root != nullptr && *root != '\0' && !has("bin/verilator_bin") && !has("verilator_bin"))
@@ -111,32 +137,33 @@ YAML::Node roles_of(const fs::path& data) {
 
 }  // namespace
 
-const std::string& verilator_version() {
-  static const std::string version = version_of(kVerilator);
+const std::string& verilator_version(const BuildProgress& progress) {
+  static const std::string version = version_of(verilator_command(), progress);
   return version;
 }
 
-const std::string& compiler_version() {
-  static const std::string version = version_of(kCompiler);
+const std::string& compiler_version(const BuildProgress& progress) {
+  static const std::string version = version_of(compiler_command(), progress);
   return version;
 }
 
 ModelTools model_tool_versions(const ModelOptions& options, bool anew) {
+  const BuildProgress& progress = options.progress;
   ModelTools tools;
-  tools.verilator = anew ? version_of(kVerilator) : verilator_version();
-  if (tools.verilator.empty() && options.progress) options.progress(0);  // an interruption ends it too
-  if (tools.verilator.empty()) refuse_verilator();
+  tools.verilator = anew ? version_of(verilator_command(), progress) : verilator_version(progress);
+  if (tools.verilator.empty()) refuse_verilator(progress);
   const char* const cxx = std::getenv("CXX");
   tools.cxx = cxx != nullptr ? cxx : "";
-  tools.compiler = anew ? version_of(kCompiler) : compiler_version();
+  tools.compiler = anew ? version_of(compiler_command(), progress) : compiler_version(progress);
+  if (options.netlist.empty()) return tools;
   const char* const yosys = std::getenv("YOSYS");
-  if (!options.netlist.empty()) tools.yosys = version_of(kYosys);
-  if (!options.netlist.empty() && tools.yosys.empty()) {
+  tools.yosys = version_of(yosys_command(), progress);
+  if (tools.yosys.empty()) {
     if (yosys != nullptr && *yosys != '\0')
       throw Error(fmt::format("$YOSYS: `{} -V` fails or says no version, and netlists need a yosys", yosys));
     throw Error("yosys: not found, or `yosys -V` fails, and netlists need it: tools/deps test installs it");
   }
-  if (!options.netlist.empty() && yosys != nullptr) tools.yosys += yosys;  // it may have flags
+  if (yosys != nullptr) tools.yosys += yosys;  // it may have flags
   return tools;
 }
 

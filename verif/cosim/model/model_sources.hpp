@@ -19,10 +19,10 @@ struct ModelTools {
   std::string yosys;      ///< what `yosys -V` prints, of a netlist; empty for the RTL
 };
 
-/// Each is empty if the tool cannot be run. A program asks a tool once: `verilator --version` starts Perl, which takes
-/// longer than a small frame.
-const std::string& verilator_version();
-const std::string& compiler_version();
+/// Each is empty if the tool is not there or says no version. Throws NotStarted if it cannot be started for another
+/// reason. A program asks a tool once: `verilator --version` starts Perl, which takes longer than a small frame.
+const std::string& verilator_version(const BuildProgress& progress = {});
+const std::string& compiler_version(const BuildProgress& progress = {});
 
 /// Throws Error if there is no Verilator, or, for a netlist, no yosys. With `anew` the tools are asked now, as they may
 /// be others since this program asked first.

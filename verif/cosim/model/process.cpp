@@ -11,51 +11,89 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
-
-#include "kage/error.hpp"
+#include <utility>
 
 namespace kage::cosim {
 namespace {
 
-[[noreturn]] void fail(const std::vector<std::string>& command, int error) {
-  throw Error(fmt::format("{}: cannot be started: {}", command[0], std::strerror(error)));
-}
+/// The two ends of a pipe; no program that is started gets them.
+class Pipe {
+ public:
+  Pipe() {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) ends_ = {-1, -1};
+  }
+  ~Pipe() {
+    for (const int end : ends_)
+      if (end >= 0) (void)close(end);
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 
-/// Between fork() and execvp() no memory may be asked for: another thread may have held its lock.
-[[noreturn]] void execute(char* const* argv, int output, pid_t parent) {
+  [[nodiscard]] bool made() const { return ends_[0] >= 0; }
+  [[nodiscard]] int in() const { return ends_[1]; }
+  [[nodiscard]] int out() const { return ends_[0]; }
+  int take_out() { return std::exchange(ends_[0], -1); }
+  void close_in() { (void)close(std::exchange(ends_[1], -1)); }
+
+ private:
+  std::array<int, 2> ends_{-1, -1};
+};
+
+/// Between fork() and execvp() no memory may be asked for: another thread may have held its lock. `failure` takes errno
+/// where the program cannot be run.
+[[noreturn]] void execute(char* const* argv, int output, Said kept, int failure, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (getppid() != parent) _exit(127);  // it died before prctl
-  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
   dup2(output, STDOUT_FILENO);
-  dup2(output, STDERR_FILENO);
+  if (kept == Said::all) dup2(output, STDERR_FILENO);
+  if (output > STDERR_FILENO) close(output);  // where no more files may be open, there is one for this
+  const int nothing = open("/dev/null", O_RDWR | O_CLOEXEC);
+  dup2(nothing, STDIN_FILENO);
+  if (kept == Said::output) dup2(nothing, STDERR_FILENO);
   execvp(argv[0], argv);
+  const int error = errno;
+  (void)!write(failure, &error, sizeof error);
   _exit(127);
+}
+
+/// The errno that execute() wrote; 0 once the program runs.
+int failure_in(int pipe) {
+  int error = 0;
+  while (true) {
+    const ssize_t n = read(pipe, &error, sizeof error);
+    if (n >= 0 || errno != EINTR) return n == sizeof error ? error : 0;
+  }
 }
 
 }  // namespace
 
-Process::Process(const std::vector<std::string>& command) {
+NotStarted::NotStarted(const std::string& program, int cause)
+    : Error(fmt::format("{}: cannot be started: {}", program, std::strerror(cause))), cause_(cause) {}
+
+Process::Process(const std::vector<std::string>& command, Said kept) {
   std::vector<char*> argv;
   argv.reserve(command.size() + 1);
   for (const std::string& word : command) argv.push_back(const_cast<char*>(word.c_str()));
   argv.push_back(nullptr);
-  std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) fail(command, errno);
-  output_ = ends[0];
-  (void)fcntl(output_, F_SETFL, O_NONBLOCK);
+  Pipe output;
+  Pipe failure;
+  if (!output.made() || !failure.made()) throw NotStarted(command[0], errno);
+  (void)fcntl(output.out(), F_SETFL, O_NONBLOCK);
   // What its tools leave behind when they are ended comes to this process, so that their end can be waited for.
   (void)prctl(PR_SET_CHILD_SUBREAPER, 1);
   const pid_t parent = getpid();
   pid_ = fork();
-  if (pid_ == 0) execute(argv.data(), ends[1], parent);
-  const int error = errno;
-  (void)close(ends[1]);
-  if (pid_ < 0) {
-    (void)close(output_);
-    fail(command, error);
-  }
+  if (pid_ == 0) execute(argv.data(), output.in(), kept, failure.in(), parent);
+  if (pid_ < 0) throw NotStarted(command[0], errno);
   setpgid(pid_, pid_);  // by both: it has to be so before either goes on
+  output.close_in();
+  failure.close_in();
+  if (const int error = failure_in(failure.out()); error != 0) {
+    waitpid(pid_, nullptr, 0);
+    throw NotStarted(command[0], error);
+  }
+  output_ = output.take_out();
 }
 
 Process::~Process() {

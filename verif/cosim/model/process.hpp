@@ -3,18 +3,34 @@
 
 #include <sys/types.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
+#include "kage/error.hpp"
+
 namespace kage::cosim {
 
-/// A program in a process group of its own, with what it says on standard output and standard error. It ends with the
+/// A program could not be started: cause() is the errno of it, ENOENT where there is no such program.
+class NotStarted : public Error {
+ public:
+  NotStarted(const std::string& program, int cause);
+  [[nodiscard]] int cause() const { return cause_; }
+
+ private:
+  int cause_;
+};
+
+/// The words of a program that are kept: on standard output and standard error, or on standard output alone.
+enum class Said : std::uint8_t { all, output };
+
+/// A program in a process group of its own, with its words. It ends with the
 /// object, and all programs of its group with it. If this process dies, however that may be, the program gets SIGTERM,
 /// upon which it has to end its group.
 class Process {
  public:
-  /// Throws Error if it cannot be started.
-  explicit Process(const std::vector<std::string>& command);
+  /// Throws NotStarted, also where there is no such program.
+  explicit Process(const std::vector<std::string>& command, Said kept = Said::all);
   ~Process();
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
@@ -23,7 +39,7 @@ class Process {
   /// where nobody reads what it says.
   bool ended(bool& ok);
 
-  /// What it has said so far.
+  /// Its words so far.
   [[nodiscard]] const std::string& said() const { return said_; }
 
  private:

@@ -49,10 +49,14 @@ std::string preprocessed(const fs::path& data, const ModelSources& sources) {
   command.insert(command.end(), sources.flags.begin(), sources.flags.end());
   for (const fs::path& folder : sources.includes) command.push_back("-I" + (data / folder).string());
   for (const fs::path& file : sources.modules) command.push_back((data / file).string());
-  Process process(command);
-  bool ok = false;
-  while (!process.ended(ok)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  return ok ? without_rests(process.said()) : std::string();
+  try {
+    Process process(command);
+    bool ok = false;
+    while (!process.ended(ok)) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    return ok ? without_rests(process.said()) : std::string();
+  } catch (const NotStarted&) {
+    return {};
+  }
 }
 
 /// The first of the tools whose version does not say of what sources it was built; empty if there is none.

@@ -159,12 +159,25 @@ mkdir elsewhere && ln -s elsewhere/l.kage link.kage
 expect 0 "$kage" stream courtyard --size 32x24 --frames 1 --out link.kage
 [ -L link.kage ] && [ -s elsewhere/l.kage ] || fail "--out on a link: $(ls -l link.kage elsewhere)"
 # More threads than processors are no matter to anybody who reads standard error.
-expect 0 "$kage" order "$source/verif/test/meshes/sixteen_faces.obj" --eyes 2 --repeats 1 --threads 9
-[ ! -s stderr ] || fail "kage order: $(cat stderr)"
+for command in "order $source/verif/test/meshes/sixteen_faces.obj --eyes 2 --repeats 1" \
+  "stream glass --size 64x48 --frames 1 --out glass.kage" "render glass --size 64x48 --frames 1 --out glass"; do
+  # shellcheck disable=SC2086
+  expect 0 "$kage" $command --threads 9
+  [ ! -s stderr ] || fail "$command --threads 9: $(cat stderr)"
+done
 # So few open files that something cannot be opened: that is what is told.
 echo '{"asset":{"version":"2.0"}}' >none.gltf
-for command in "info none.gltf" "info heard.kage" "list" "diff heard.kage heard.kage"; do
+printf 'mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\n' >m.obj && echo 'newmtl a' >m.mtl
+printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >m.off
+printf 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n' >m.stl
+printf 'ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n' >m.ply
+printf 'property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >>m.ply
+echo 'LANES: 2' >c.yaml && mkdir folder && cp heard.kage folder/a.kage
+expect 0 "$kage" order m.obj --eyes 2 --repeats 1 --save m.bsp
+for command in "info none.gltf" "info heard.kage" "list" "diff heard.kage heard.kage" "info m.obj" "info m.off" "info m.stl" "info m.ply" \
+  "render m.obj --size 8x6 --config c.yaml --out few" "order m.bsp --eyes 2 --repeats 1" "diff folder folder" "model tiny"; do
   for files in 3 4 5 6 7 8 9 10 12 16; do
+    [ "$command" != "model tiny" ] || [ $files -lt 9 ] || continue # with more, Verilator runs, and a model is built
     rc=0
     # shellcheck disable=SC2086
     (ulimit -n $files && XDG_CACHE_HOME=$PWD/few-files exec "$kage" $command) >stdout 2>stderr || rc=$?
