@@ -10,11 +10,12 @@
 #include <bit>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "contract/config_text.hpp"
 #include "file/meant.hpp"
+#include "file/one_line.hpp"
+#include "file/plain_io.hpp"
 #include "file/regular_file.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
@@ -59,12 +60,13 @@ Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = 
   for (const auto& entry : node) {
     if (!entry.first.IsScalar()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
     const auto name = entry.first.as<std::string>();
-    const std::string place = lines ? fmt::format("{}: line {}: {}", where, entry.first.Mark().line + 1, name)
-                                    : fmt::format("{}: {}", where, name);
+    const std::string shown = one_line(name, 60);
+    const std::string place = lines ? fmt::format("{}: line {}: {}", where, entry.first.Mark().line + 1, shown)
+                                    : fmt::format("{}: {}", where, shown);
     const auto* p = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& i) { return i.name == name; });
     if (p == kParams.end())
       throw Error(fmt::format(
-          "{}: no such parameter{}{}", place, meant(in_capitals(name), parameter_names()),
+          "{}: no such parameter{}{}", place, meant(in_capitals(shown), parameter_names()),
           entry.second.IsScalar() ? "" : "; a file has the parameters of one configuration, with no name over them"));
     if (!seen.insert(name).second) throw Error(fmt::format("{}: given twice", place));
     int value = 0;
@@ -106,11 +108,11 @@ constexpr std::size_t kYamlBytes = std::size_t{1} << 18;
 
 YAML::Node read_yaml(const std::string& path) {
   check_regular(path);
-  std::ifstream in(path, std::ios::binary);
+  const ReadOnly in(path);
   std::string text(kYamlBytes + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (!in && !in.eof()) throw Error(fmt::format("{}: cannot be read", path));
-  text.resize(static_cast<std::size_t>(in.gcount()));
+  std::size_t size = 0;
+  while (const std::size_t n = in.read(text.data() + size, text.size() - size)) size += n;
+  text.resize(size);
   if (text.size() > kYamlBytes) throw Error(fmt::format("{}: more than {} bytes: no configuration", path, kYamlBytes));
   return parsed_yaml(text, path);
 }

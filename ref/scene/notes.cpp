@@ -3,24 +3,6 @@
 
 namespace kage::scene {
 
-std::string one_line(std::string_view text, std::size_t limit) {
-  std::string line;
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool blank = byte <= 0x20 || byte == 0x7f;
-    if (blank && (line.empty() || line.back() == ' ')) continue;
-    line += blank ? ' ' : c;
-    if (line.size() > limit) {
-      // Not within a UTF-8 sequence: continuation bytes are 10xxxxxx.
-      while (!line.empty() && (static_cast<unsigned char>(line.back()) & 0xc0) == 0x80) line.pop_back();
-      if (!line.empty()) line.pop_back();
-      return line + "...";
-    }
-  }
-  while (!line.empty() && line.back() == ' ') line.pop_back();
-  return line;
-}
-
 std::string cause_of(std::string_view message) {
   std::string line = one_line(message);
   if (line.size() >= 3 && line.compare(line.size() - 3, 3, "...") == 0) return line;  // that is where it was cut

@@ -66,6 +66,7 @@ ABOVE = {
     "verif/trade": ["trade", "opinion", "cosim", "stimulus", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
     "verif/extremes": ["extremes", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/fuzz": ["fuzz", "trade", "vectors", "cosim", "stimulus", *MODEL],
     "verif/bench": ["bench", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test": ["test", "extremes", "trade", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test/unit/cli": ["test", "cli"],
