@@ -39,6 +39,7 @@ set(long_tests
     cli/vectors_played
     examples/axi_dma
     examples/dpi
+    contract/counted
     contract/told_figures
     formal/async_fifo
     formal/compare_tree

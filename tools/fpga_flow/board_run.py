@@ -7,6 +7,7 @@ import shlex
 
 import between
 import board as boards
+import figures as kept
 import flow
 import timing
 from trouble import Trouble
@@ -82,6 +83,7 @@ def figures_of(b, options, tools, folder, progress):
         "device": b.device.name,
         "parameters": b.core.parameters,
         "board_parameters": b.values,
+        "of": kept.of_board(folder, b),
         "tools": {n: tools.find(n).version for n in ("yosys", f"nextpnr-{b.device.family}")},
         "cells": flow.cells_of(b.device, reports[best], netlist),
         "clocks": [{k: v for k, v in r.items() if k != "net"} for r in rows],

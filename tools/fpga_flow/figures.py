@@ -8,6 +8,7 @@ import pathlib
 import statistics
 import sys
 
+import board as boards
 import core
 from trouble import Trouble
 
@@ -58,6 +59,34 @@ def moved(top, row):
     return kept_rows.moved(top, row["of"], values)
 
 
+def values_of_board(board):
+    """What of a board changes its bitstream's figures, beside files and versions."""
+    design = board.design
+    return {
+        "parameters": design.values,
+        "synth": list(design.synth),
+        "nextpnr": [*board.device.nextpnr, *design.nextpnr],
+    }
+
+
+def of_board(top, board):
+    """What a board's bitstream is made of."""
+    sources = [str(f.relative_to(top)) for pattern in board.design.sources.split() for f in top.glob(pattern)]
+    includes = [
+        str(f.relative_to(top)) for folder in board.design.includes for f in top.glob(f"{folder}/**/*") if f.is_file()
+    ]
+    return kept_rows.of_what(top, [*sources, *includes, board.pins, FLOW], values_of_board(board))
+
+
+def board_moved(top, row):
+    """moved() of a row of BOARDS."""
+    if "of" not in row:
+        return ["all: the row does not say of what it is"]
+    if row["board"] not in boards.names(top):
+        return ["its board"]
+    return kept_rows.moved(top, row["of"], values_of_board(boards.find(top, row["board"])))
+
+
 def row_of(figures):
     """What of a run's figures is kept."""
     path = figures["worst_path"]
@@ -90,6 +119,7 @@ def record_board(top, figures):
         "date": datetime.date.today().isoformat(),
         "tools": figures["tools"],
         "cells": figures["cells"],
+        "of": figures["of"],
         "best_seed": figures["best_seed"],
         "clocks": [
             {

@@ -229,6 +229,7 @@ def board_figures(_):
     rows = [
         (
             f"`{r['board']}`",
+            "earlier" if fpga.board_moved(TOP, r) else "this",
             *(cells(r, kind) for kind in ("lut", "ff", "ram", "dsp")),
             ", ".join(clocks(r)),
             crossing(r),
@@ -236,7 +237,7 @@ def board_figures(_):
         )
         for r in json.loads((TOP / BOARD_FIGURES).read_text())
     ]
-    head = ("board", "LUT", "flip-flops", "RAM", "DSP", "clocks, MHz reached of MHz needed")
+    head = ("board", "of RTL", "LUT", "flip-flops", "RAM", "DSP", "clocks, MHz reached of MHz needed")
     return md((*head, "nearest path between clocks, ns of ns allowed", "seeds"), rows)
 
 

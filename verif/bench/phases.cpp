@@ -26,10 +26,12 @@ PhaseSums sums_of(const Config& c, std::span<const std::uint32_t> words) {
 
 }  // namespace
 
-int main() {
+int main(int argc, char** argv) {
   fmt::print("{:<13} {:<12} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>10} {:>11} {:>9}\n", "scene", "config",
              "state", "opaque", "volumes", "EV", "ES", "TP", "line out", "video", "sum", "RTL clocks", "SP+NC/px");
-  for (const std::string& name : builtin_scenes()) {
+  std::vector<std::string> scenes(argv + 1, argv + argc);
+  if (scenes.empty()) scenes = builtin_scenes();
+  for (const std::string& name : scenes) {
     const auto scene = std::make_shared<const Scene>(Scene::load(name));
     const DrawOptions draw{.width = 640, .height = 480, .threads = 1};
     const NamedConfig config = choose_config(*scene, draw);

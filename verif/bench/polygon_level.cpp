@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame takes at the polygon level beside the span level, how many of its spans the front end makes, and why not
 // the others: the first frame of all built-in scenes and of four meshes at 640x480, ACTIVE as usual.
-// `bench_polygon_level SCENE...` prints those.
+// `bench_polygon_level SCENE...` prints those. The table is docs/stream.md's.
 #include <fmt/format.h>
 
 #include <array>
@@ -35,23 +35,22 @@ void print(const std::string& path) {
       0, [](std::span<const std::uint32_t>) {}, parts);
   const PolygonReport& r = parts.polygons;
   const PolygonReport::Way all = r.all();
-  fmt::print("{:<18} {:<11} {:>9} {:>9} {:>5.1f} {:>8} {:>8} {:>6.1f} {:>6.1f} {:>6}",
-             std::filesystem::path(path).filename().string(), named.name, spans, r.words * 4,
-             static_cast<double>(spans) / static_cast<double>(r.words * 4), all.polygons, all.spans,
-             percent(r.made().spans, all.spans), percent(r.made().tall_spans, all.tall_spans), r.active);
-  for (std::size_t way = 1; way < kPolygonWays; ++way) fmt::print(" {:>9.2f}", percent(r.ways[way].spans, all.spans));
-  fmt::print("\n");
+  const auto of = [&](PolygonWay way) { return percent(r.ways[static_cast<std::size_t>(way)].spans, all.spans); };
+  const double rest =
+      of(PolygonWay::crossings) + of(PolygonWay::wide) + of(PolygonWay::rounded) + of(PolygonWay::place);
+  fmt::print("| {} | {} | {:.0f} | {:.0f} | {:.1f} | {:.1f} | {:.1f} | {} | {:.2f} | {:.2f} | {:.2f} | {:.2f} |\n",
+             std::filesystem::path(path).filename().string(), named.name, static_cast<double>(spans) / 1000,
+             static_cast<double>(r.words) * 4 / 1000, static_cast<double>(spans) / static_cast<double>(r.words * 4),
+             percent(r.made().spans, all.spans), percent(r.made().tall_spans, all.tall_spans), r.active,
+             of(PolygonWay::words), of(PolygonWay::active), of(PolygonWay::cut), rest);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  fmt::print("{:<18} {:<11} {:>9} {:>9} {:>5} {:>8} {:>8} {:>6} {:>6} {:>6}", "scene", "config", "spans", "polygons",
-             "ratio", "faces", "spans", "made", "tall", "active");
-  for (const char* cause : {"crossings", "wide", "rounded", "cut", "words", "active", "place"})
-    fmt::print(" {:>9}", cause);
-  fmt::print("\n{:<18} {:<11} {:>9} {:>9} {:>5} {:>8} {:>8} {:>6} {:>6} {:>6} {:>9}\n", "", "", "bytes", "bytes", "",
-             "", "", "%", "%", "", "% of the spans");
+  fmt::print(
+      "| scene | config | spans, kB | polygons, kB | times fewer | made, % | tall, % | at once | no fewer words, % | "
+      "ACTIVE, % | cut, % | else, % |\n|---|---|---|---|---|---|---|---|---|---|---|---|\n");
   std::vector<std::string> scenes(argv + 1, argv + argc);
   if (scenes.empty()) {
     scenes = kage::builtin_scenes();

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Words and clocks that pages tell are those that benchmarks count: each line of a benchmark stands in its page, and each number
+of a sentence is one that a benchmark prints. Nothing is timed, so all is the same on every machine.
+
+usage: counted.py SOURCE_DIR FOLDER_OF_BENCHMARKS
+"""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+SOURCE, BENCHES = map(pathlib.Path, sys.argv[1:3])
+wrong = []
+
+
+def lines(name, *arguments):
+    return subprocess.run(
+        [BENCHES / f"bench_{name}", *arguments], check=True, stdout=subprocess.PIPE, text=True
+    ).stdout.splitlines()
+
+
+def rows(page, name, *arguments):
+    """The page has the benchmark's table, line by line; of some scenes, where they are named."""
+    told = set((SOURCE / page).read_text().splitlines())
+    printed = lines(name, *arguments)
+    if len(printed) < 3:
+        wrong.append(f"bench_{name} prints no table")
+    wrong.extend(
+        f"{page}: tools/bench {name} prints another line: {line}" for line in printed if line.rstrip() not in told
+    )
+
+
+def numbers(page, begin, name, scenes):
+    """All numbers of thousands in the page's paragraph that begins so are printed of these scenes, and there are some."""
+    (paragraph,) = re.findall(rf"^\* \*\*{re.escape(begin)}.*?(?=^\* |^$)", (SOURCE / page).read_text(), re.S | re.M)
+    printed = set(" ".join(lines(name, *scenes)).split())
+    told = [n.replace(",", "") for n in re.findall(r"\b\d{1,3}(?:,\d{3})+\b", paragraph)]
+    if not told:
+        wrong.append(f"{page}: no number of thousands in {begin}")
+    wrong.extend(
+        f"{page}: {n} is nothing that tools/bench {name} prints of {', '.join(scenes)}"
+        for n in told
+        if n not in printed
+    )
+
+
+rows("docs/stream.md", "polygon_level")
+rows("docs/shadows.md", "phases", "courtyard", "knot", "glass", "fifteen")
+numbers("docs/rtl.md", "It keeps up.", "front_end", ["courtyard"])
+for line in wrong:
+    print(line)
+sys.exit(bool(wrong))
