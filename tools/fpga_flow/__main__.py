@@ -63,7 +63,7 @@ def figures_of(top, device, what, options, tools, folder):
         design = flow.Design(name, name, {"BITS": bits})
         reports = measure(tools, device, design, options.seeds, folder, progress, name.replace("_", " "))
         yardsticks[name] = flow.spread([flow.clock_of(r) for r in reports])
-    design = flow.Design("kage", "kage_wrap", what.values)
+    design = flow.Design("kage", "kage_wrap", what.values, synth=device.synth)
     reports = measure(tools, device, design, options.seeds, folder, progress, "core")
     clocks = [flow.clock_of(r) for r in reports]
     median = sorted(range(len(clocks)), key=lambda i: clocks[i])[(len(clocks) - 1) // 2]
@@ -95,7 +95,7 @@ def figures_of(top, device, what, options, tools, folder):
 
 def core_figures_of(device, what, options, tools, folder):
     """The clock of the core alone, without yardsticks and bitstream; or why it has none."""
-    design = flow.Design("kage", "kage_wrap", what.values)
+    design = flow.Design("kage", "kage_wrap", what.values, synth=device.synth)
     clocks, why = None, None
     try:
         reports = measure(tools, device, design, options.seeds, folder, Progress(), "core")

@@ -13,6 +13,7 @@ class Device:
     name: str
     family: str  # ecp5 or ice40
     nextpnr: tuple  # its options for the device
+    synth: tuple = ()  # yosys' options of synth_FAMILY for a core that is placed without a board
 
 
 @dataclasses.dataclass(frozen=True)
@@ -42,7 +43,7 @@ def find_device(top, name):
         boards = read_yaml(top / "constraints/boards/boards.yaml")
         raise Trouble(f"{name}: no such device or board; there are {', '.join([*devices, *boards])}")
     d = devices[name]
-    return Device(name, d["family"], tuple(d["nextpnr"]))
+    return Device(name, d["family"], tuple(d["nextpnr"]), tuple(map(str, d.get("synth", ()))))
 
 
 def find_core(top, words):

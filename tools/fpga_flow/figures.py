@@ -37,7 +37,8 @@ FLOW = "tools/fpga_flow/flow.py"  # the options of yosys and nextpnr
 
 def values_of(device, what):
     """What of a run's options changes its figures, beside files and versions."""
-    return {"parameters": what.parameters, "nextpnr": list(device.nextpnr)}
+    values = {"parameters": what.parameters, "nextpnr": list(device.nextpnr)}
+    return values | ({"synth": list(device.synth)} if device.synth else {})
 
 
 def of_run(top, device, what, modules):
