@@ -28,8 +28,11 @@ module lane_ramp_monitor #(
   localparam int Delay = $clog2(LANES) + 2;
   localparam int SetBits = 2 * BITS + OFF_BITS;
   // The last set-up stage is a queue of two: of it the oldest and the one behind.
-  logic [SetBits-1:0] set[SETS+1];  // place k is what stage k takes
-  bit [SETS:0] set_known;  // something has come in
+  // Stage 0 lowest; place k of the ways is what stage k takes.
+  logic [SETS*SetBits-1:0] set_q;
+  logic [(SETS+1)*SetBits-1:0] set_way;
+  bit [SETS-1:0] set_known_q;  // something has come in
+  bit [SETS:0] known_way;
   logic [SetBits-1:0] oldest_q, behind_q;
   bit oldest_known_q, behind_known_q;
   logic [1:0] held_q;
@@ -61,19 +64,22 @@ module lane_ramp_monitor #(
     end
   end
 
-  assign set[0] = {start_i, slope_i, offset_i};
-  assign set_known[0] = 1'b1;
-  for (genvar k = 0; k < SETS; k++) begin : gen_set
-    always_ff @(posedge clk_i) if (set_en_i[k]) {set[k+1], set_known[k+1]} <= {set[k], set_known[k]};
-  end
+  assign set_way   = {set_q, start_i, slope_i, offset_i};
+  assign known_way = {set_known_q, 1'b1};
 
   always_ff @(posedge clk_i) begin
+    for (int k = 0; k < SETS; k++) begin
+      if (set_en_i[k]) begin
+        set_q[k*SetBits+:SetBits] <= set_way[k*SetBits+:SetBits];
+        set_known_q[k] <= known_way[k];
+      end
+    end
     held_q <= rst_ni ? held_q + 2'(puts) - 2'(load_i && held_q != '0) : '0;
     if (load_i || held_q == '0) begin
       if (held_q == 2'd2) {oldest_q, oldest_known_q} <= {behind_q, behind_known_q};
-      else {oldest_q, oldest_known_q} <= {set[SETS], set_known[SETS]};
+      else {oldest_q, oldest_known_q} <= {set_way[SETS*SetBits+:SetBits], known_way[SETS]};
     end
-    if (puts) {behind_q, behind_known_q} <= {set[SETS], set_known[SETS]};
+    if (puts) {behind_q, behind_known_q} <= {set_way[SETS*SetBits+:SetBits], known_way[SETS]};
     if (load_i) begin
       {start_q, slope_q} <= oldest_q[SetBits-1:OFF_BITS];
       place_q <= LANES > 1 ? -32'(offset) : 0;
