@@ -122,7 +122,7 @@ module light_resolve #(
       for (int c = 0; c < Shares; c++) begin
         for (int l = 0; l < LIGHTS; l++) begin
           // A sum has bits for all of it: no term is more, of whatever the registers hold at first.
-          assert ((sums[c*SumBits+:SumBits] < SumBits'(products_q[(l*Shares+c)*ProductBits+:ProductBits])) !== 1'b1);
+          assert ((64'(sums[c*SumBits+:SumBits]) < 64'(products_q[(l*Shares+c)*ProductBits+:ProductBits])) !== 1'b1);
         end
       end
     end
