@@ -206,6 +206,7 @@ done
 mkdir -p "own/.kage-$dead" && echo own >"own/.kage-$dead/file"
 trouble 'own: is not empty and no pack' "$kage" vectors courtyard --size 8x6 --frames 1 --config tiny --degrade --no-rtl --out own
 [ "$(cat "own/.kage-$dead/file")" = own ] || fail "somebody's file is gone"
+rm -r own
 [ "$(cat mine2/README.md)" = mine ] || fail "a file of another's is replaced"
 make p courtyard --size 16x12 --frames 1 --config default --no-rtl  # over an older one
 json p/manifest.json 'j["rtl_agrees"] is None'
