@@ -23,6 +23,8 @@ import pathlib, sys
 path = pathlib.Path("data/rtl/line_out.sv")
 path.write_text(path.read_text().replace(sys.argv[1], sys.argv[2], 1))
 PY
+  # Its models are built first: a compiler takes more memory than the search does.
+  "$kage" cosim "${scene[@]}" --out out --no-report >/dev/null 2>&1 && fail "$1, now $2: the same"
   kib=$(python3 - "$kage" cosim "${scene[@]}" --out out --json v.json --junit v.xml <<'PY'
 import resource, subprocess, sys
 with open("said", "w") as said:
