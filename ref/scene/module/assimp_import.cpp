@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "file/extension.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "scene/import.hpp"
@@ -181,7 +182,7 @@ void Reader::write_notes() {
 
 /// Why no reader takes the file.
 std::string no_format(const std::filesystem::path& path) {
-  const std::string ending = path.extension().string();
+  const std::string ending = lower_extension(path);
   if (ending == ".yaml" || ending == ".yml") return "a configuration, and no scene: --config takes it";
   if (ending == ".json") return "JSON, and no scene";
   return "no format of scenes or meshes that is read";

@@ -47,6 +47,14 @@ no_leftovers() {
   [ -z "$left" ] || fail "unfinished files are left: $left"
 }
 
+# own_verdicts: models of the common cache, verdicts of this test's own.
+own_verdicts() {
+  local models=${XDG_CACHE_HOME:-$HOME/.cache}/kage
+  expect 0 "$kage" cache
+  mkdir -p cache/kage && ln -s "$models"/{models,verilator} cache/kage/
+  export XDG_CACHE_HOME=$PWD/cache
+}
+
 # data_copy FOLDER: a copy of the data that kage builds RTL models and pages from: RTL, scenes, drivers, monitors, faults, pages.
 data_copy() {
   local part

@@ -4,11 +4,7 @@
 . "$(dirname "$0")/common.bash"
 
 echo '{MAX_WIDTH: 64, LANES: 4}' >small.yaml
-# Models of the common cache, verdicts of this test's own.
-models=${XDG_CACHE_HOME:-$HOME/.cache}/kage
-expect 0 "$kage" cache
-mkdir -p cache/kage && ln -s "$models"/{models,verilator} cache/kage/
-export XDG_CACHE_HOME=$PWD/cache
+own_verdicts
 verdicts=$PWD/cache/kage/verdicts
 mkdir -p only/kage && ln -s "$verdicts" only/kage/verdicts
 cache() { XDG_CACHE_HOME=$PWD/only "$kage" cache "$@"; } # as if there were no models

@@ -5,11 +5,7 @@
 . "$(dirname "$0")/common.bash"
 
 echo '{MAX_WIDTH: 64, LANES: 4}' >small.yaml
-# Models of the common cache, verdicts of this test's own.
-models=${XDG_CACHE_HOME:-$HOME/.cache}/kage
-expect 0 "$kage" cache
-mkdir -p cache/kage && ln -s "$models"/{models,verilator} cache/kage/
-export XDG_CACHE_HOME=$PWD/cache
+own_verdicts
 
 for threads in 1 3; do
   frames=(--size 96x72 --frames 2 --threads "$threads")
