@@ -97,6 +97,10 @@ module light_resolve #(
           products_q[(l*Shares+c)*ProductBits+:ProductBits] <=
               ProductBits'(counts[l*CountOne+:CountOne]) *
               ProductBits'(shares[(l*Shares+c)*FactorBits+:FactorBits]);
+`ifndef SYNTHESIS
+          // No sample loses nothing, even of an entry that no TABLE has written: where a simulator knows X, 0 * X is X.
+          if (counts[l*CountOne+:CountOne] == '0) products_q[(l*Shares+c)*ProductBits+:ProductBits] <= '0;
+`endif
         end
       end
     end

@@ -195,12 +195,16 @@ module polygon_walk #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
+  logic [1:0] made_q;  // a polygon
   always @(posedge clk_i) begin
+    made_q <= {made_q[0], in_made_i};
     if (rst_ni && !flush_i && valid_q[1]) begin
-      // 1. A span lies within the line, its left end first.
-      assert (xl_q <= xr_q && xr_q <= width_i);
-      // 2. What is said of its pixels' number is so.
-      assert (empty_q == (xl_q == xr_q) && single_q == (xr_q - xl_q == X_BITS'(1)));
+      if (made_q[1]) begin
+        // 1. A span lies within the line, its left end first.
+        assert (xl_q <= xr_q && xr_q <= width_i);
+        // 2. What is said of its pixels' number is so.
+        assert (empty_q == (xl_q == xr_q) && single_q == (xr_q - xl_q == X_BITS'(1)));
+      end
       // 3. A place of the walk is a polygon's or a line's end.
       assert (!(write_o && swap_write_o));
     end

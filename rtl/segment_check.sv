@@ -268,10 +268,12 @@ module segment_check #(
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
+  logic [5:0] kinds;
+  assign kinds = {is_shade_i, is_face_i, is_seg_i, is_tree_i, is_eol_i, is_other_i};
   always @(posedge clk_i) begin
     if (rst_ni) begin
-      // 1. One token at a time.
-      assert ($onehot0({is_shade_i, is_face_i, is_seg_i, is_tree_i, is_eol_i, is_other_i}));
+      // 1. One token at a time. ($onehot0 of Icarus Verilog 11 is never true.)
+      assert (!take_i || (kinds & (kinds - 6'd1)) == '0);
       // 2. A line that ends under a tree has had its TREE, so every unit had it complete and no fault of it is left.
       assert (!take_i || !is_eol_i || order_error_o || !tree_q || !(short_any || kept_q[0] || new_q));
       // 3. A faulty segment is of this line or the next.

@@ -21,7 +21,7 @@ def front_end_run(b):
         "1 frame at the polygon level, 160x120, 19200 pixels compared, with --fault front_end_edge;" in verdict,
         f"front_end: not said what the frames are: {verdict}",
     )
-    check("rtl/front_end.sv" in verdict and "made by the front end, from " in verdict, f"front_end: {verdict}")
+    check("rtl/front_merge.sv" in verdict and "made by the front end, from " in verdict, f"front_end: {verdict}")
     first = re.search(r"frame 0, line (\d+), x (\d+), ", verdict)
     check(first is not None, f"front_end: no first difference: {verdict}")
     at_rest(b, f"0/{first[2]}/{first[1]}")

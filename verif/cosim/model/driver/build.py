@@ -252,7 +252,7 @@ class Build:
     def link(self, objects, library):
         command = [*self.cxx, "-shared", "-o", library, *objects]
         if self.args.waves:
-            command += ["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fflush", "fclose"))]
+            command += ["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fputc", "fseeko", "fflush", "fclose"))]
         command += ["-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"]
         run("linking the model", command, self.log)
 

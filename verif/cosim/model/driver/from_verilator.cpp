@@ -22,6 +22,8 @@
 // does not look whether what it writes gets written. stdio keeps the error with the file until it is closed.
 extern "C" {
 size_t __real_fwrite(const void* data, size_t size, size_t count, FILE* file);
+int __real_fputc(int byte, FILE* file);
+int __real_fseeko(FILE* file, off_t offset, int whence);
 int __real_fflush(FILE* file);
 int __real_fclose(FILE* file);
 
@@ -32,6 +34,17 @@ size_t __wrap_fwrite(const void* data, size_t size, size_t count, FILE* file) {
   const size_t written = __real_fwrite(data, size, count, file);
   note_wave_error(file, written != count);
   return written;
+}
+int __wrap_fputc(int byte, FILE* file) {
+  const int written = __real_fputc(byte, file);
+  note_wave_error(file, written == EOF);
+  return written;
+}
+// It writes what is in the buffer.
+int __wrap_fseeko(FILE* file, off_t offset, int whence) {
+  const int failed = __real_fseeko(file, offset, whence);
+  note_wave_error(file, failed != 0);
+  return failed;
 }
 int __wrap_fflush(FILE* file) {
   const int failed = __real_fflush(file);
