@@ -182,7 +182,7 @@ int diff_two_folders(const DiffCommand& o) {
   DiffOptions limits = o.limits;
   if (!o.mask.empty()) {
     const QuietStderr quiet;
-    limits.mask = load_mask(o.mask);
+    limits.mask = load_mask(o.mask, limits.max_bytes);
   }
   Totals totals;
   std::string lines;

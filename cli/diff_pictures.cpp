@@ -123,7 +123,7 @@ int diff_two_pictures(const DiffCommand& o) {
   const Stopwatch watch;
   const DiffResult result = [&] {
     const QuietStderr quiet;
-    if (!o.mask.empty()) limits.mask = load_mask(o.mask);
+    if (!o.mask.empty()) limits.mask = load_mask(o.mask, limits.max_bytes);
     return diff_files(o.a, o.b, limits, o.out.empty() && o.blink.empty() ? nullptr : &views);
   }();
   const std::string line = describe(result);

@@ -18,7 +18,7 @@ constexpr std::chrono::milliseconds kPause{2};
 bool rtl_changed(const RtlRun& rtl) {
   if (!rtl.fault.empty() || rtl.options.mutant != 0) return true;
   try {
-    cosim::Process git({"git", "-C", rtl_directory(), "diff", "--name-only", "HEAD", "--", "."});
+    cosim::Process git({"git", "-C", rtl_directory(), "diff", "--name-only", "HEAD", "--", "."}, cosim::Said::output);
     const auto begin = std::chrono::steady_clock::now();
     bool ok = false;
     while (!git.ended(ok)) {

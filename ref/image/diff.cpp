@@ -330,8 +330,8 @@ DiffResult diff_images(const Image& a, const Image& b, const DiffOptions& option
   return diff_pictures(picture_of(a), picture_of(b), options, heat);
 }
 
-Image load_mask(const std::filesystem::path& path) {
-  const Picture picture = load_picture(path);
+Image load_mask(const std::filesystem::path& path, std::optional<std::uint64_t> max_bytes) {
+  const Picture picture = load_picture(path, -1, max_bytes);
   Image mask(picture.width, picture.height, 1);
   bool some = false;
   for (std::size_t c = 0; c < picture.channels.size(); ++c) {

@@ -102,11 +102,11 @@ Picture whole_picture(PictureReader& reader) {
   return picture;
 }
 
-Picture load_picture(const std::filesystem::path& path, int part) {
+Picture load_picture(const std::filesystem::path& path, int part, std::optional<std::uint64_t> max_bytes) {
   const auto reader = open_picture(path, part);
   const Picture& head = reader->head();
   check_memory(fmt::format("{}: {}x{} pixels take", path.string(), head.width, head.height).c_str(),
-               reader->own_bytes() + reader->line_bytes() * static_cast<std::uint64_t>(head.height), std::nullopt);
+               reader->own_bytes() + reader->line_bytes() * static_cast<std::uint64_t>(head.height), max_bytes);
   return whole_picture(*reader);
 }
 

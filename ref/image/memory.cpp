@@ -74,7 +74,7 @@ void check_memory(const char* what, std::uint64_t bytes, std::optional<std::uint
   if (bytes <= limit) return;
   throw Error(fmt::format(
       "{} {} of memory, and {} {}", what, text_of(bytes), text_of(limit),
-      most ? "are what --max-memory allows" : "are half of what there is: --max-memory MIB sets another limit"));
+      most ? "are what --max-memory allows" : "are half of what there is (kage diff --max-memory MIB sets another limit)"));
 }
 
 }  // namespace kage

@@ -94,7 +94,7 @@ Picture whole_picture(PictureReader& reader);
 /// Read a flat picture; alpha is taken as stored. Where a file holds several, as a multi-part EXR, `part` is the
 /// number of one, from 0; without it (-1) such a file is refused. Throws Error, also where that takes more memory than
 /// half of what there is.
-Picture load_picture(const std::filesystem::path& path, int part = -1);
+Picture load_picture(const std::filesystem::path& path, int part = -1, std::optional<std::uint64_t> max_bytes = {});
 
 /// The difference that makes two pictures incomparable (size, place, channels, types, notes), in words; "" if nothing
 /// does.

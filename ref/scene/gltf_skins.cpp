@@ -77,13 +77,11 @@ void GltfSkins::check(const RawMesh& mesh, const RawSkin& skin, const std::strin
 
 void GltfSkins::drop_unmoved() {
   std::set<std::int32_t> moved;
-  for (std::size_t i = 0; i < scene_->nodes.size(); ++i) {
-    const RawNode& node = scene_->nodes[i];
-    const bool morphed = std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; }) ||
-                         std::any_of(scene_->tracks.begin(), scene_->tracks.end(),
-                                     [&](const RawTrack& t) { return t.node == i && t.path == RawPath::kWeights; });
-    if (node.skin >= 0 || morphed) moved.insert(node.mesh);
-  }
+  for (const RawNode& node : scene_->nodes)
+    if (node.skin >= 0 || std::any_of(node.weights.begin(), node.weights.end(), [](double w) { return w != 0; }))
+      moved.insert(node.mesh);
+  for (const RawTrack& track : scene_->tracks)
+    if (track.path == RawPath::kWeights) moved.insert(scene_->nodes[track.node].mesh);
   for (std::size_t i = 0; i < scene_->meshes.size(); ++i) {
     if (moved.count(static_cast<std::int32_t>(i)) > 0) continue;
     for (RawPrimitive& p : scene_->meshes[i].primitives) p.joints.clear(), p.weights.clear(), p.targets.clear();

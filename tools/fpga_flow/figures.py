@@ -5,6 +5,7 @@ which RTL, constraints and flow it is, so that who quotes it can tell whether th
 import datetime
 import json
 import pathlib
+import re
 import statistics
 import sys
 
@@ -41,6 +42,13 @@ def values_of(device, what):
     return values | ({"synth": list(device.synth)} if device.synth else {})
 
 
+def other_tools(top, row):
+    """Tools of the row that are of another version than the one that is installed here (tools/deps fpga)."""
+    pinned = (top / "tools/pypi.sh").read_text() + (top / "tools/deps").read_text()
+    versions = {t: re.search(rf"\byowasp-{t}(?:==|\]=)([0-9.]+)", pinned) for t in row["tools"]}
+    return [f"{t} {v}" for t, v in row["tools"].items() if not versions[t] or not f"{versions[t][1]}.".startswith(f"{v}.")]
+
+
 def of_run(top, device, what, modules):
     """What a run of the core was measured on; `modules` are all that it has."""
     files = [f for m in modules for f in (f"rtl/{m}.sv", f"constraints/{m}.sv") if (top / f).is_file()]
@@ -50,14 +58,14 @@ def of_run(top, device, what, modules):
 
 
 def moved(top, row):
-    """Which files are others than those that the row was measured on; [] if it is of what is there."""
+    """Which files and tools are others than those that the row was measured on; [] if it is of what is there."""
     if "of" not in row:
         return ["all: the row does not say of what it is"]
     try:
         values = values_of(core.find_device(top, row["device"]), core.find_core(top, [row["core"]]))
     except Trouble:
         return ["its core or device"]
-    return kept_rows.moved(top, row["of"], values)
+    return kept_rows.moved(top, row["of"], values) + other_tools(top, row)
 
 
 def values_of_board(board):
@@ -85,7 +93,7 @@ def board_moved(top, row):
         return ["all: the row does not say of what it is"]
     if row["board"] not in boards.names(top):
         return ["its board"]
-    return kept_rows.moved(top, row["of"], values_of_board(boards.find(top, row["board"])))
+    return kept_rows.moved(top, row["of"], values_of_board(boards.find(top, row["board"]))) + other_tools(top, row)
 
 
 def row_of(figures):

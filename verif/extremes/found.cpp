@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <sstream>
 
@@ -50,7 +52,7 @@ FoundCase read_found(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::stringstream all;
   all << in.rdbuf();
-  if (!in) throw Error(fmt::format("{}: cannot be read", file.string()));
+  if (!in) throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
   FoundCase found;
   std::string line;
   for (int number = 1; std::getline(all, line); ++number) {

@@ -46,7 +46,21 @@ int run_deep(const Target& target) {
   return count;
 }
 
+/// Each folder of inputs that were found is a target's, and there are some: otherwise they would no more be run.
+void check_folders(const fs::path& found) {
+  int folders = 0;
+  for (const auto& entry : fs::directory_iterator(found)) {
+    const std::string name = entry.path().filename().string();
+    const auto all = targets();
+    if (entry.is_directory() && std::none_of(all.begin(), all.end(), [&](const Target& t) { return t.name == name; }))
+      throw kage::Error(fmt::format("{}: no target of this name", entry.path().string()));
+    folders += entry.is_directory() ? 1 : 0;
+  }
+  if (folders == 0) throw kage::Error(fmt::format("{}: no inputs", found.string()));
+}
+
 int run_all(const fs::path& found) {
+  check_folders(found);
   for (const Target& t : targets()) {
     const auto start = std::chrono::steady_clock::now();
     int count = 0;

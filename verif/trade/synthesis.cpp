@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
@@ -48,7 +49,8 @@ std::optional<std::string> output_of(const std::vector<std::string>& command, co
       std::this_thread::sleep_for(kLook);
     }
     if (ok) return process.said();
-  } catch (const Error&) {
+  } catch (const cosim::NotStarted& e) {
+    if (e.cause() != ENOENT) throw;
   }
   return std::nullopt;
 }

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <numeric>
@@ -181,7 +183,7 @@ void judge_hex(Judge& judge, const Pack& pack, const std::filesystem::path& path
     }
     judge.pixel(pixel, from == 1 ? number_of(line.substr(0, 1)) : std::nullopt);
   }
-  if (in.bad()) throw Error(path.string() + ": cannot be read");
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
 }
 
 void judge_raw(Judge& judge, const Pack& pack, const std::filesystem::path& path) {
@@ -192,7 +194,7 @@ void judge_raw(Judge& judge, const Pack& pack, const std::filesystem::path& path
     std::transform(bytes.begin(), bytes.end(), pixel.begin(), [](char c) { return static_cast<std::uint8_t>(c); });
     judge.pixel(pixel, std::nullopt);
   }
-  if (in.bad()) throw Error(path.string() + ": cannot be read");
+  if (in.bad()) throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
   if (in.gcount() != 0) throw Error(fmt::format("{}: ends within a pixel of {} bytes", path.string(), bytes.size()));
 }
 

@@ -11,7 +11,6 @@
 #include <optional>
 #include <string>
 
-#include "file/extension.hpp"
 #include "kage/error.hpp"
 
 namespace kage::picture_module {
@@ -159,8 +158,6 @@ void refuse_lossy_file(const std::filesystem::path& path) {
     if (big_tiff_has_palette(file)) lost = "has a palette in a BigTIFF file";
   } else if (begin == std::string("II*\0", 4) || begin == std::string("MM\0*", 4)) {
     lost = lost_of_tiff(file);
-  } else if (const std::string extension = lower_extension(path); extension == ".tga" || extension == ".tpic") {
-    lost = lost_of_targa(file);  // it has no mark at its beginning
   }
   if (!lost.empty()) refuse(path, lost);
 }
@@ -170,6 +167,9 @@ void refuse_lossy_format(const std::filesystem::path& path, std::string_view for
                               "openexr", "png", "pnm", "rla",  "sgi", "targa", "tiff", "webp", "zfile"};
   if (std::find(kTried.begin(), kTried.end(), format) == kTried.end())
     refuse(path, fmt::format("is of the format {}", format));
+  if (format != "targa") return;  // which has no mark at its beginning, and is known by no name
+  Bytes file(path);
+  if (const std::string lost = lost_of_targa(file); !lost.empty()) refuse(path, lost);
 }
 
 }  // namespace kage::picture_module

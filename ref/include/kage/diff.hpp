@@ -128,7 +128,7 @@ DiffResult diff_images(const Image& a, const Image& b, const DiffOptions& option
 /// @param path the picture
 /// @return one channel: 255 where the picture is not 0 in some channel other than alpha (or in alpha, if that is all
 /// there is), else 0
-Image load_mask(const std::filesystem::path& path);
+Image load_mask(const std::filesystem::path& path, std::optional<std::uint64_t> max_bytes = {});
 
 /// Writes a picture that shows two, one after the other, half a second each, for ever: an animated PNG. Three channels;
 /// where sizes are unlike, black fills up the smaller.

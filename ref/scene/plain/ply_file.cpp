@@ -55,6 +55,18 @@ bool is_of_textures(const std::string& name) {
 /// The value that stands for a full colour: whole numbers count to 255, those of 16 bits to 65535.
 double full_of(PlyType type) { return !is_integer(type) ? 1 : type == PlyType::kUint16 ? 65535 : 255; }
 
+/// A normal counts with all of its coordinates, alpha with a colour.
+bool lacks_others(const PlyElement& element, Role role) {
+  const auto has = [&](Role wanted) {
+    return std::any_of(element.properties.begin(), element.properties.end(), [&](const PlyProperty& p) {
+      return p.count == PlyType::kNone && role_of(p.name) == wanted;
+    });
+  };
+  if (role >= Role::kNormalX && role <= Role::kNormalZ)
+    return !has(Role::kNormalX) || !has(Role::kNormalY) || !has(Role::kNormalZ);
+  return role == Role::kAlpha && !has(Role::kRed) && !has(Role::kGreen) && !has(Role::kBlue);
+}
+
 class PlyReader {
  public:
   PlyReader(std::string_view text, const std::filesystem::path& path, const std::string& name)
@@ -82,6 +94,7 @@ class PlyReader {
   void read_faces(const PlyElement& element);
   void read_strips(const PlyElement& element);
   void add_strip();
+  void color_faces(const Plan& plan, const std::array<double, 11>& row, std::size_t first);
   void read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to);
   void skip(const PlyElement& element);
   void write_notes();
@@ -118,7 +131,7 @@ RawScene PlyReader::run() {
   if (mesh_.vertex_count() == 0) throw Error(lines_.file() + ": no vertices");
   both_colored_ = !mesh_.colors.empty() && !mesh_.face_colors.empty();
   if (both_colored_) mesh_.face_colors.clear();
-  if (!mesh_.face_colors.empty()) mesh_.face_colors.resize(3 * mesh_.face_count(), 1);  // of strips
+  if (!mesh_.face_colors.empty()) mesh_.face_colors.resize(3 * mesh_.face_count(), 1);  // of elements without colours
   thin_ += append(mesh_, scene_);
   write_notes();
   return std::move(scene_);
@@ -133,7 +146,7 @@ PlyReader::Plan PlyReader::plan_of(const PlyElement& element, bool of_faces) {
     const bool is_list = p.count != PlyType::kNone;
     Role role = is_list ? Role::kNone : role_of(p.name);
     if (of_faces && role < Role::kRed) role = Role::kNone;
-    if (role != Role::kNone && plan.has(role)) role = Role::kNone;
+    if (role != Role::kNone && (plan.has(role) || lacks_others(element, role))) role = Role::kNone;
     plan.roles.push_back(role);
     if (of_faces && is_list && (p.name == "vertex_indices" || p.name == "vertex_index"))
       plan.indices = i;
@@ -222,8 +235,18 @@ void PlyReader::read_faces(const PlyElement& element) {
     read_row(element, plan, row);
     for (const std::int64_t number : list_) mesh_.corners.push_back(vertex(number));
     mesh_.ends.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
-    read_color(plan, row, mesh_.face_colors);
+    color_faces(plan, row, mesh_.face_count() - 1);
   }
+}
+
+/// The faces from the first on get the row's colour, and those before them that have none white.
+void PlyReader::color_faces(const Plan& plan, const std::array<double, 11>& row, std::size_t first) {
+  std::vector<float> color;
+  read_color(plan, row, color);
+  if (color.empty()) return;
+  mesh_.face_colors.resize(3 * first, 1);
+  for (std::size_t f = first; f < mesh_.face_count(); ++f)
+    mesh_.face_colors.insert(mesh_.face_colors.end(), color.begin(), color.end());
 }
 
 void PlyReader::read_strips(const PlyElement& element) {
@@ -232,7 +255,9 @@ void PlyReader::read_strips(const PlyElement& element) {
   for (std::uint64_t i = 0; i < element.count; ++i) {
     values_.begin(element, i);
     read_row(element, plan, row);
+    const std::size_t first = mesh_.face_count();
     add_strip();
+    color_faces(plan, row, first);
   }
 }
 

@@ -59,6 +59,7 @@ double PlyValues::finite(PlyType type) {
 double PlyValues::text_value(PlyType type) {
   const std::string_view word = take_word(left_);
   if (word.empty()) lines_.fail("the line has too few numbers for element " + one_line(element_->name, 40));
+  if (type == PlyType::kDouble) return lines_.wide(word);
   if (!is_integer(type)) return static_cast<double>(lines_.number(word));
   const auto whole = integer_of(word);
   const auto [least, most] = range_of(type);

@@ -120,6 +120,14 @@ float TextLines::number(std::string_view word) const {
   return *value;
 }
 
+double TextLines::wide(std::string_view word) const {
+  const std::string_view bare = without_plus(word);
+  double value = 0;
+  const auto [stop, error] = std::from_chars(bare.data(), bare.data() + bare.size(), value);
+  const bool only_wide = error == std::errc() && stop == bare.data() + bare.size() && !number_of(word);
+  return only_wide ? value : static_cast<double>(number(word));
+}
+
 std::uint32_t TextLines::whole(std::string_view word, const char* what) const {
   const auto value = integer_of(word);
   if (!value || *value < 0 || *value > std::numeric_limits<std::uint32_t>::max())

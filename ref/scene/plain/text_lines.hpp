@@ -50,6 +50,8 @@ class TextLines {
   [[nodiscard]] float finite(std::string_view word) const;
   /// As number_of(). Throws Error with the word.
   [[nodiscard]] float number(std::string_view word) const;
+  /// number_of(), and where that is too large for a float, the nearest double. Throws Error with the word.
+  [[nodiscard]] double wide(std::string_view word) const;
   /// An integer from 0 to 2^32 - 1. Throws Error with the word, "... is no " `what`.
   [[nodiscard]] std::uint32_t whole(std::string_view word, const char* what) const;
 

@@ -281,7 +281,7 @@ grep -qF 'same: 8192x65536, 536870912 pixels compared' stdout || fail "$(cat std
 expect 1 within "$kage" diff high.png other.png
 grep -qF '1 differs, by up to 255 LSB, the first at x 8191, y 65535, channel 0' stdout || fail "$(cat stdout)"
 trouble 'parts.png: to compare them takes 1026 MiB' within "$kage" diff parts.png parts.png
-trouble 'are half of what there is: --max-memory MIB sets another limit' within "$kage" diff high.png high2.png --out high_heat.png
+trouble 'are half of what there is (kage diff --max-memory MIB sets another limit)' within "$kage" diff high.png high2.png --out high_heat.png
 trouble 'high2.png: to compare them takes 2 MiB of memory, and 1 MiB are what --max-memory allows' "$kage" diff high.png high2.png --max-memory 1
 [ ! -e high_heat.png ] || fail "a heat map of pictures that were refused"
 done_testing

@@ -175,9 +175,9 @@ printf 'property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\
 echo 'LANES: 2' >c.yaml && mkdir folder && cp heard.kage folder/a.kage
 expect 0 "$kage" order m.obj --eyes 2 --repeats 1 --save m.bsp
 for command in "info none.gltf" "info heard.kage" "list" "diff heard.kage heard.kage" "info m.obj" "info m.off" "info m.stl" "info m.ply" \
-  "render m.obj --size 8x6 --config c.yaml --out few" "order m.bsp --eyes 2 --repeats 1" "diff folder folder" "model tiny"; do
+  "render m.obj --size 8x6 --config c.yaml --out few" "order m.bsp --eyes 2 --repeats 1" "diff folder folder" "model tiny" "area tiny"; do
   for files in 3 4 5 6 7 8 9 10 12 16; do
-    [ "$command" != "model tiny" ] || [ $files -lt 9 ] || continue # with more, Verilator runs, and a model is built
+    [[ $command != *" tiny" ]] || [ $files -lt 9 ] || continue # with more, Verilator or yosys runs
     rc=0
     # shellcheck disable=SC2086
     (ulimit -n $files && XDG_CACHE_HOME=$PWD/few-files exec "$kage" $command) >stdout 2>stderr || rc=$?

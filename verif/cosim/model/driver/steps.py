@@ -3,6 +3,7 @@
 
 import errno
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -63,7 +64,7 @@ def without_blanks(folder):
 
 def for_tools(text):
     for folder in sorted(PLAIN, key=len, reverse=True):
-        text = text.replace(folder, f"/proc/self/fd/{PLAIN[folder]}")
+        text = re.sub(re.escape(folder) + r"(?=/|$)", f"/proc/self/fd/{PLAIN[folder]}", text)
     return text
 
 

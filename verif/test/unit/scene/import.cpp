@@ -25,6 +25,8 @@ using Bytes = std::vector<std::uint8_t>;
 
 #if defined(__SANITIZE_ADDRESS__)
 constexpr bool kSanitized = true;
+#elif defined(__has_feature)
+constexpr bool kSanitized = __has_feature(address_sanitizer);  // clang's
 #else
 constexpr bool kSanitized = false;
 #endif

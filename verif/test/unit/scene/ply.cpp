@@ -162,6 +162,39 @@ TEST_CASE("PLY: strips wind to and fro, -1 begins a new one") {
   CHECK(ply.refusal(strip("3 0 -2 1", "int")) == "line 16: vertex -2 of 6 is named (they count from 0)");
 }
 
+TEST_CASE("PLY: strips have colours, and stand before or behind faces") {
+  const PlainFiles ply(".ply");
+  const std::string rgb = "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+  const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+  const std::string faces = "element face 1\n" + kList;
+  const std::string vertices = "element vertex 4\n" + kXyz;
+  // The same square twice: two triangles of a strip, and two corners of it as a face.
+  const auto frame = [&](const std::string& elements, const std::string& body) {
+    const std::string text = ascii(vertices + elements, kFour + body);
+    CHECK(ply.notes(text).empty());
+    return colors(ply.frame(text));
+  };
+  CHECK(frame(strips + rgb, "4 0 1 2 3 255 51 0\n") == "1000 200 0, 1000 200 0");
+  CHECK(frame(strips + faces + rgb, "3 0 1 2\n3 1 3 2 255 0 0\n") == "1000 1000 1000, 1000 0 0");
+  CHECK(frame(faces + rgb + strips, "3 1 3 2 255 0 0\n3 0 1 2\n") == "1000 0 0, 1000 1000 1000");
+  CHECK(frame(strips + rgb + faces, "3 0 1 2 0 0 255\n3 1 3 2\n") == "0 0 1000, 1000 1000 1000");
+  CHECK(frame(faces + strips + rgb, "3 1 3 2\n3 0 1 2 0 0 255\n") == "1000 1000 1000, 0 0 1000");
+  CHECK(frame(strips + rgb + faces + rgb, "3 0 1 2 0 0 255\n3 1 3 2 255 0 0\n") == "0 0 1000, 1000 0 0");
+}
+
+TEST_CASE("PLY: what is ignored may be larger than a float") {
+  const PlainFiles ply(".ply");
+  const auto text = [](const std::string& x, const std::string& quality) {
+    return ascii("element vertex 3\nproperty double x\nproperty float y\nproperty float z\nproperty double quality\n"
+                 "element face 1\n" +
+                     kList,
+                 "0 0 0 0\n" + x + " 0 0 " + quality + "\n0 1 0 0\n3 0 1 2\n");
+  };
+  CHECK(ply.notes(text("1", "1e300")) == "property quality of element vertex is ignored\n");
+  CHECK(ply.refusal(text("1e300", "1")) == "line 12: a position is too large");
+  CHECK(ply.refusal(text("1", "1e999")) == "line 12: 1e999 is too large");
+}
+
 TEST_CASE("PLY: what is not drawn is told") {
   const PlainFiles ply(".ply");
   CHECK(
@@ -177,6 +210,12 @@ TEST_CASE("PLY: what is not drawn is told") {
   CHECK(ply.notes(square("Made by hand\nelement face 1\n" + kList, "3 0 1 2\n")) ==
         "line 7 is ignored: 'Made' is none of format, comment, obj_info, element, property and end_header\n");
   CHECK(ply.refusal(ascii("element vertex 4\n" + kXyz, kFour)) == "no faces");
+  // A part of a normal, and alpha of no colour.
+  CHECK(ply.notes(ascii("element vertex 3\n" + kXyz + "property float nx\nproperty float nz\nelement face 1\n" + kList +
+                            "property uchar alpha\n",
+                        "0 0 0 1 0\n1 0 0 1 0\n0 1 0 1 0\n3 0 1 2 7\n")) ==
+        "property nx of element vertex is ignored\nproperty nz of element vertex is ignored\n"
+        "property alpha of element face is ignored\n");
 }
 
 TEST_CASE("PLY: faces may come before their vertices, and may be of many corners") {
