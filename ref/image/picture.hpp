@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,8 +93,8 @@ std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, i
 Picture whole_picture(PictureReader& reader);
 
 /// Read a flat picture; alpha is taken as stored. Where a file holds several, as a multi-part EXR, `part` is the
-/// number of one, from 0; without it (-1) such a file is refused. Throws Error, also where that takes more memory than
-/// half of what there is.
+/// number of one, from 0; without it (-1) such a file is refused. Throws Error, also where that takes more than
+/// `max_bytes` of memory, or without it more than half of what there is.
 Picture load_picture(const std::filesystem::path& path, int part = -1, std::optional<std::uint64_t> max_bytes = {});
 
 /// The difference that makes two pictures incomparable (size, place, channels, types, notes), in words; "" if nothing

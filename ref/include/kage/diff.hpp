@@ -126,6 +126,7 @@ DiffResult diff_images(const Image& a, const Image& b, const DiffOptions& option
 
 /// Makes a mask of a picture of any type. Throws Error if there is a NaN, or no pixel that would count.
 /// @param path the picture
+/// @param max_bytes of memory that it may take; none: half of what there is
 /// @return one channel: 255 where the picture is not 0 in some channel other than alpha (or in alpha, if that is all
 /// there is), else 0
 Image load_mask(const std::filesystem::path& path, std::optional<std::uint64_t> max_bytes = {});
