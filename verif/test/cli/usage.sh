@@ -183,6 +183,7 @@ for command in "info none.gltf" "info heard.kage" "list" "diff heard.kage heard.
     (ulimit -n $files && XDG_CACHE_HOME=$PWD/few-files exec "$kage" $command) >stdout 2>stderr || rc=$?
     [ $rc = 0 ] && continue
     [[ $rc = 127 ]] && grep -q 'shared object' stderr && continue # the loader's own words
+    grep -q '^kage: yosys fails: ' stderr && [ "$command" = "area tiny" ] && continue # in the words of yosys, which has begun
     grep -qF 'no faces' stderr && [ "$command" = "info none.gltf" ] && continue
     [ $rc = 2 ] && [ "$(wc -l <stderr)" = 1 ] && grep -qiE 'too many open files|error 24' stderr || fail "ulimit -n $files, $command: exit $rc, $(cat stderr)"
     grep -qE 'not JSON|not found|cut off|is empty' stderr && fail "ulimit -n $files, $command: a wrong cause: $(cat stderr)"
