@@ -58,7 +58,7 @@ def numbers(page, begin, name, scenes):
 
 
 rows("docs/stream.md", "polygon_level")
-rows("docs/shadows.md", "phases", "courtyard", "knot", "glass", "fifteen")
+rows("docs/shadows.md", "phases", "courtyard", "knot", "fifteen", "glass")
 numbers("docs/rtl.md", "It keeps up.", "front_end", ["courtyard"])
 for line in wrong:
     print(line)
