@@ -95,12 +95,13 @@ void option_json(CLI::App& command, Options& options) {
 }
 
 static std::string what_is_taken(Taken taken) {
-  return fmt::format("a built-in scene ({}){} a mesh or scene file (glTF, OBJ, PLY, STL, OFF, or what else Assimp reads){}",
-                     fmt::join(builtin_scenes(), ", "), taken == Taken::scenes ? " or" : ",",
-                     taken == Taken::scenes    ? ""
-                     : taken == Taken::streams ? ", or a stream file"
-                                               : ", a stream file, or random frames (random, random:damaged, "
-                                                 "random:mixed)");
+  return fmt::format(
+      "a built-in scene ({}){} a mesh or scene file (glTF, OBJ, PLY, STL, OFF, or what else Assimp reads){}",
+      fmt::join(builtin_scenes(), ", "), taken == Taken::scenes ? " or" : ",",
+      taken == Taken::scenes    ? ""
+      : taken == Taken::streams ? ", or a stream file"
+                                : ", a stream file, or random frames (random, random:damaged, "
+                                  "random:mixed)");
 }
 
 void option_scene(CLI::App& command, Options& options, Taken taken) {

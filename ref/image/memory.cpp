@@ -72,9 +72,9 @@ std::uint64_t half_of_memory() {
 void check_memory(const char* what, std::uint64_t bytes, std::optional<std::uint64_t> most) {
   const std::uint64_t limit = most ? *most : half_of_memory();
   if (bytes <= limit) return;
-  throw Error(fmt::format(
-      "{} {} of memory, and {} {}", what, text_of(bytes), text_of(limit),
-      most ? "are what --max-memory allows" : "are half of what there is (kage diff --max-memory MIB sets another limit)"));
+  throw Error(fmt::format("{} {} of memory, and {} {}", what, text_of(bytes), text_of(limit),
+                          most ? "are what --max-memory allows"
+                               : "are half of what there is (kage diff --max-memory MIB sets another limit)"));
 }
 
 }  // namespace kage

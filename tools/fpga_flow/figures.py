@@ -46,7 +46,9 @@ def other_tools(top, row):
     """Tools of the row that are of another version than the one that is installed here (tools/deps fpga)."""
     pinned = (top / "tools/pypi.sh").read_text() + (top / "tools/deps").read_text()
     versions = {t: re.search(rf"\byowasp-{t}(?:==|\]=)([0-9.]+)", pinned) for t in row["tools"]}
-    return [f"{t} {v}" for t, v in row["tools"].items() if not versions[t] or not f"{versions[t][1]}.".startswith(f"{v}.")]
+    return [
+        f"{t} {v}" for t, v in row["tools"].items() if not versions[t] or not f"{versions[t][1]}.".startswith(f"{v}.")
+    ]
 
 
 def of_run(top, device, what, modules):

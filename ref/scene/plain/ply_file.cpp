@@ -58,9 +58,8 @@ double full_of(PlyType type) { return !is_integer(type) ? 1 : type == PlyType::k
 /// A normal counts with all of its coordinates, alpha with a colour.
 bool lacks_others(const PlyElement& element, Role role) {
   const auto has = [&](Role wanted) {
-    return std::any_of(element.properties.begin(), element.properties.end(), [&](const PlyProperty& p) {
-      return p.count == PlyType::kNone && role_of(p.name) == wanted;
-    });
+    return std::any_of(element.properties.begin(), element.properties.end(),
+                       [&](const PlyProperty& p) { return p.count == PlyType::kNone && role_of(p.name) == wanted; });
   };
   if (role >= Role::kNormalX && role <= Role::kNormalZ)
     return !has(Role::kNormalX) || !has(Role::kNormalY) || !has(Role::kNormalZ);

@@ -272,7 +272,9 @@ def main() -> int:
     # Where a package has moved, the files that this is about would be no more among them.
     gone = sorted(set(DISAGREE) - {f.name for f in files})
     if len(files) < LEAST or gone:
-        print(f"{len(files)} files, at least {LEAST} are to be compared; of the known differences are not there: {gone}")
+        print(
+            f"{len(files)} files, at least {LEAST} are to be compared; of the known differences are not there: {gone}"
+        )
         return 1
     return 1 if bad else 0
 

@@ -185,10 +185,11 @@ TEST_CASE("PLY: strips have colours, and stand before or behind faces") {
 TEST_CASE("PLY: what is ignored may be larger than a float") {
   const PlainFiles ply(".ply");
   const auto text = [](const std::string& x, const std::string& quality) {
-    return ascii("element vertex 3\nproperty double x\nproperty float y\nproperty float z\nproperty double quality\n"
-                 "element face 1\n" +
-                     kList,
-                 "0 0 0 0\n" + x + " 0 0 " + quality + "\n0 1 0 0\n3 0 1 2\n");
+    return ascii(
+        "element vertex 3\nproperty double x\nproperty float y\nproperty float z\nproperty double quality\n"
+        "element face 1\n" +
+            kList,
+        "0 0 0 0\n" + x + " 0 0 " + quality + "\n0 1 0 0\n3 0 1 2\n");
   };
   CHECK(ply.notes(text("1", "1e300")) == "property quality of element vertex is ignored\n");
   CHECK(ply.refusal(text("1e300", "1")) == "line 12: a position is too large");
