@@ -12,7 +12,8 @@ namespace kage::picture_module {
 void refuse_lossy_file(const std::filesystem::path& path);
 
 /// Throws Error for a format, by OpenImageIO's name, of which it is not known that two files of different values come
-/// out different. unit/image/lossless tries those that are let through.
+/// out different, and for a Truevision file, which nothing but its reader knows, as refuse_lossy_file() does.
+/// unit/image/lossless tries those that are let through.
 void refuse_lossy_format(const std::filesystem::path& path, std::string_view format);
 
 }  // namespace kage::picture_module

@@ -83,6 +83,7 @@ class PlyReader {
     std::vector<Role> roles;
     std::size_t indices = 0;  // the property with a face's vertices, behind the last where there is none
     [[nodiscard]] bool has(Role role) const { return std::count(roles.begin(), roles.end(), role) > 0; }
+    [[nodiscard]] bool has_color() const { return has(Role::kRed) || has(Role::kGreen) || has(Role::kBlue); }
   };
   Plan plan_of(const PlyElement& element, bool of_faces);
   /// One element: of the roles, `row` gets the values, colours from 0 to 1; a face's vertices go to `list_`.
@@ -215,7 +216,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
 
 /// What is there of red, green and blue; the others are 0.
 void PlyReader::read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to) {
-  if (!plan.has(Role::kRed) && !plan.has(Role::kGreen) && !plan.has(Role::kBlue)) return;
+  if (!plan.has_color()) return;
   bool bright = false;
   for (const Role role : {Role::kRed, Role::kGreen, Role::kBlue}) {
     const double v = std::clamp(row[static_cast<std::size_t>(role)], 0.0, 2.0);
@@ -240,12 +241,11 @@ void PlyReader::read_faces(const PlyElement& element) {
 
 /// The faces from the first on get the row's colour, and those before them that have none white.
 void PlyReader::color_faces(const Plan& plan, const std::array<double, 11>& row, std::size_t first) {
-  std::vector<float> color;
-  read_color(plan, row, color);
-  if (color.empty()) return;
-  mesh_.face_colors.resize(3 * first, 1);
-  for (std::size_t f = first; f < mesh_.face_count(); ++f)
-    mesh_.face_colors.insert(mesh_.face_colors.end(), color.begin(), color.end());
+  std::vector<float>& colors = mesh_.face_colors;
+  if (first == mesh_.face_count() || !plan.has_color()) return;
+  colors.resize(3 * first, 1);
+  read_color(plan, row, colors);
+  while (colors.size() < 3 * mesh_.face_count()) colors.push_back(colors[colors.size() - 3]);
 }
 
 void PlyReader::read_strips(const PlyElement& element) {

@@ -121,11 +121,12 @@ float TextLines::number(std::string_view word) const {
 }
 
 double TextLines::wide(std::string_view word) const {
+  if (const auto narrow = number_of(word)) return static_cast<double>(*narrow);
   const std::string_view bare = without_plus(word);
   double value = 0;
   const auto [stop, error] = std::from_chars(bare.data(), bare.data() + bare.size(), value);
-  const bool only_wide = error == std::errc() && stop == bare.data() + bare.size() && !number_of(word);
-  return only_wide ? value : static_cast<double>(number(word));
+  if (error == std::errc() && stop == bare.data() + bare.size()) return value;
+  return static_cast<double>(number(word));  // it fails
 }
 
 std::uint32_t TextLines::whole(std::string_view word, const char* what) const {

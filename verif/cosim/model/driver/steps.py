@@ -64,7 +64,7 @@ def without_blanks(folder):
 
 def for_tools(text):
     for folder in sorted(PLAIN, key=len, reverse=True):
-        text = re.sub(re.escape(folder) + r"(?=/|$)", f"/proc/self/fd/{PLAIN[folder]}", text)
+        text = re.sub(re.escape(folder) + r"(?=[/\s;]|$)", f"/proc/self/fd/{PLAIN[folder]}", text)
     return text
 
 
