@@ -7,6 +7,7 @@
 //
 // Without names all of verif/mutants/mutants.yaml. Frames are by $KAGE_SEED; what lives through them is given those of
 // the next seven seeds. Which N a sample has is by a seed that is printed: $KAGE_SEED, else another one in each run.
+// $KAGE_SHARD=I/N: of all, the Ith of N parts.
 // Exit code 0: all as they should be; 1: not; 2: trouble.
 #include <fmt/format.h>
 
@@ -25,6 +26,7 @@
 #include "mutants/list.hpp"
 #include "mutants/trial.hpp"
 #include "stimulus/random.hpp"
+#include "stimulus/shard.hpp"
 
 namespace kage::verif {
 namespace {
@@ -133,7 +135,13 @@ std::vector<Mutant> chosen(std::vector<Mutant> all, const std::vector<std::strin
     all.resize(std::min(all.size(), static_cast<std::size_t>(sample)));
     std::sort(all.begin(), all.end(), [](const Mutant& a, const Mutant& b) { return a.number < b.number; });
   }
-  if (names.empty()) return all;
+  if (names.empty()) {
+    if (sample > 0) return all;
+    std::erase_if(all, [shard = test_shard(), count = all.size()](const Mutant& m) {
+      return !shard.has(static_cast<std::size_t>(m.number - 1), count);
+    });
+    return all;
+  }
   std::vector<Mutant> some;
   for (const std::string& name : names) {
     const auto it = std::find_if(all.begin(), all.end(), [&](const Mutant& m) { return m.name == name; });

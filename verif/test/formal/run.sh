@@ -6,10 +6,11 @@
 #   --proofs the proofs alone: defects take longer
 #   MODULE   all proofs and defects of this module
 #   UNITS    the proof of the compare_tree of so many units, and the tree's defects
+# KAGE_SHARD=I/N: of the defects the Ith of N parts, which cannot tell whether every property is refuted.
 # Needs yosys (with yosys-smtbmc) and yices-smt2, from PATH or from where tools/deps put it. Exit 0: all is proved, every defect is
 # found, and every property is refuted by a defect; 1: not so; 2: a tool or a file is not as it should be.
 set -euo pipefail
-[ "${1:-}" != --help ] || { sed -n '3,10s/^# \{0,1\}//p' "$0"; exit 0; }
+[ "${1:-}" != --help ] || { sed -n '3,11s/^# \{0,1\}//p' "$0"; exit 0; }
 proofs_alone=
 if [ "${1:-}" = --proofs ]; then proofs_alone=1; shift; fi
 cd "$(dirname "$0")/../../.."
@@ -143,7 +144,17 @@ if [ $# = 0 ]; then for name in "${proofs[@]}"; do take "$name"; done; fi
 
 for name in "${proofs[@]}"; do [ -z "${asked[$name]:-}" ] || run_proof "$name"; done
 [ -z "$proofs_alone" ] || exit $bad
-for name in "${defects[@]}"; do [ -z "${modules[${of[${of[$name.proof]}.module]}]:-}" ] || run_defect "$name"; done
+shard=${KAGE_SHARD:-1/1} index=0
+if ! [[ $shard =~ ^([1-9][0-9]?)/([1-9][0-9]?)$ ]] || ((BASH_REMATCH[1] > BASH_REMATCH[2])); then
+  echo "run.sh: KAGE_SHARD=$shard: not I/N with I from 1 to N, 99 at most" >&2
+  exit 2
+fi
+asked_defects=()
+for name in "${defects[@]}"; do [ -z "${modules[${of[${of[$name.proof]}.module]}]:-}" ] || asked_defects+=("$name"); done
+for name in "${asked_defects[@]}"; do
+  [ $((index++ * ${shard#*/} / ${#asked_defects[@]} + 1)) != "${shard%/*}" ] || run_defect "$name"
+done
+[ -z "${KAGE_SHARD:-}" ] || exit $bad
 for property in "${!stated[@]}"; do
   [ -n "${refuted[$property]:-}" ] || { echo "${property/:/: property } is refuted by no defect" >&2; bad=1; }
 done
