@@ -2,7 +2,7 @@
 # The build's one set of flags. What a stream holds must not depend on the compiler: no contraction of a*b+c, no fast-math, no -march.
 get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
 if(PROJECT_IS_TOP_LEVEL AND NOT multi_config AND NOT CMAKE_BUILD_TYPE)
-  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug, Sanitize or Fuzz" FORCE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug, Sanitize, Threads or Fuzz" FORCE)
 endif()
 
 set(CMAKE_CXX_STANDARD 20)
@@ -16,6 +16,11 @@ if(PROJECT_IS_TOP_LEVEL)
   set(CMAKE_CXX_FLAGS_DEBUG "-Og -g1 -D_GLIBCXX_ASSERTIONS")
   set(CMAKE_CXX_FLAGS_SANITIZE
       "-O1 -g1 -D_GLIBCXX_ASSERTIONS -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer")
+  # Threads (tools/test --threads). The file names headers of libraries that are built without the sanitizer; g++ has no such option.
+  set(CMAKE_CXX_FLAGS_THREADS "-O1 -g1 -D_GLIBCXX_ASSERTIONS -fsanitize=thread -fno-omit-frame-pointer")
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    string(APPEND CMAKE_CXX_FLAGS_THREADS " -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/verif/test/sanitize/not_ours.txt")
+  endif()
   # Under a fuzzer (tools/fuzz), by clang.
   set(CMAKE_CXX_FLAGS_FUZZ "-O1 -g1 -D_GLIBCXX_ASSERTIONS -fsanitize=address,undefined,fuzzer-no-link -fno-sanitize-recover=all")
 endif()

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # One thread and three give the same: a tree of an order, the words of frames at both levels, rows of a sweep, frames of a
-# co-simulation and of a regression.
+# co-simulation and of a regression. In a build with the thread sanitizer (tools/test --threads) the same commands are searched
+# for data races.
 . "$(dirname "$0")/common.bash"
 
 echo '{MAX_WIDTH: 64, LANES: 4}' >small.yaml
