@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """yosys, nextpnr and the packers: where they are, which version, and running one with its output in a log."""
 
+import contextlib
 import dataclasses
+import fcntl
 import os
 import pathlib
 import re
@@ -48,9 +50,9 @@ class Programs:
         self.environment = dict(os.environ)
         if which == "wheels":
             # The wheels hold WebAssembly, which is compiled once for this machine and kept.
-            compiled = wheels / "compiled"
-            compiled.mkdir(exist_ok=True)
-            self.environment["YOWASP_CACHE_DIR"] = str(compiled)
+            self.compiled = wheels / "compiled"
+            self.compiled.mkdir(exist_ok=True)
+            self.environment["YOWASP_CACHE_DIR"] = str(self.compiled)
             self.environment["PYTHONPATH"] = str(wheels)
 
     def find(self, name):
@@ -67,8 +69,8 @@ class Programs:
             command = (path,)
         program = Program(name, command, "")
         oldest = PROGRAMS[name][1]
+        text = self.first_output([*command, "-V" if name == "yosys" else "--version" if oldest else "--help"])
         if oldest:
-            text = self.output([*command, "-V" if name == "yosys" else "--version"])
             m = re.search(r"(\d+)\.(\d+)(?:\.(\d+))?", text)
             if not m:
                 raise Trouble(f"{name}: says no version: {text.strip()[:80]}")
@@ -81,8 +83,17 @@ class Programs:
                 )
         return program
 
-    def output(self, command):
-        done = subprocess.run(command, capture_output=True, text=True, env=self.environment, stdin=subprocess.DEVNULL)
+    def first_output(self, command):
+        """The first run of a program here. Of several at once one compiles the WebAssembly, which takes a minute, and the
+        others wait: who writes it anew would cut it off under one that has it in memory, which ends by SIGBUS."""
+        with contextlib.ExitStack() as stack:
+            if self.which == "wheels":
+                folder = os.open(self.compiled, os.O_RDONLY)
+                stack.callback(os.close, folder)
+                fcntl.flock(folder, fcntl.LOCK_EX)
+            done = subprocess.run(
+                command, capture_output=True, text=True, env=self.environment, stdin=subprocess.DEVNULL
+            )
         return done.stdout + done.stderr
 
     def run(self, program, arguments, folder, log):

