@@ -53,6 +53,18 @@ step() {
   return $rc
 }
 
+# at_once FOLDER FUNCTION ITEM...: the function for each item, as many at once as there are processors, each with its output in
+# FOLDER/FUNCTION-ITEM.log; then what they printed, item by item. What the function calls and reads must be exported. Exit code 1: one failed.
+at_once() {
+  local folder=$1 function=$2 item rc=0
+  shift 2
+  mkdir -p "$folder"
+  export -f "${function?}"
+  printf '%s\0' "$@" | xargs -0 -n 1 -P "$jobs" bash -o pipefail -uc '"$1" "$3" >"$2/$1-$3.log" 2>&1' at_once "$function" "$folder" || rc=1
+  for item in "$@"; do cat "$folder/$function-$item.log"; done
+  return $rc
+}
+
 # configure ON|OFF: the build of $build_type in $build, with tests or without; a build that has tests keeps them.
 configure() {
   if [ -f "$build/build.ninja" ] && { [ "$1" = OFF ] || grep -q '^KAGE_TESTS:BOOL=ON' "$build/CMakeCache.txt"; }; then return 0; fi
