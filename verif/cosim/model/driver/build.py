@@ -31,6 +31,7 @@ import pathlib
 import shlex
 import shutil
 import signal
+import subprocess
 import tempfile
 
 import netlist
@@ -49,9 +50,9 @@ FAULTS = only("fault").parent
 DEFS = only("parameters")
 # What every part is compiled by. What the RTL writes goes through the driver. The header is copied, so that these flags are the
 # same in every source tree.
-CFLAGS = (
-    f"-fPIC -fvisibility=hidden -fno-gnu-unique -DVL_USER_STOP -DVL_PRINTF=kage_printf -include {FROM_VERILATOR.name}"
-)
+CFLAGS = f"-fPIC -fvisibility=hidden -DVL_USER_STOP -DVL_PRINTF=kage_printf -include {FROM_VERILATOR.name}"
+# A library with unique symbols, which g++ makes and clang does not, would stay in memory for ever.
+OF_GNU = " -fno-gnu-unique"
 # What make and compilers would take from the environment beside $CXX. It is no part of a model's key, so no model has it.
 UNASKED = "CXXFLAGS CPPFLAGS CFLAGS LDFLAGS LDLIBS OPT OPT_FAST OPT_SLOW OPT_GLOBAL USER_CPPFLAGS USER_LDFLAGS USER_LDLIBS MAKEFLAGS MFLAGS"
 PARTS = ("monitors", "waves", "mutants", "lines")  # options that a model is built with
@@ -113,6 +114,14 @@ def main():
             shutil.rmtree(work, ignore_errors=True)
 
 
+def is_clang(compiler):
+    """Whether a compiler is clang, whose options are not all g++'s. One that cannot be run is told of where it compiles."""
+    try:
+        return "clang" in subprocess.run([*compiler, "--version"], capture_output=True, text=True, check=False).stdout
+    except OSError:
+        return False
+
+
 class Build:
     """A model in the making, in the folder `work`."""
 
@@ -123,6 +132,8 @@ class Build:
         self.obj = work / "obj"
         self.verilator = os.environ.get("VERILATOR") or "verilator"
         self.cxx = shlex.split(os.environ.get("CXX") or "c++")  # it may be "ccache g++"
+        self.clang = is_clang(self.cxx)
+        self.cflags = CFLAGS if self.clang else CFLAGS + OF_GNU
         self.quick = args.quick or bool(args.fault) or args.monitors or args.waves or args.mutants or args.lines
         # The log outlives a failure.
         beside = pathlib.Path(tempfile.gettempdir()) / f"kage-model-{os.getpid()}.log"
@@ -153,7 +164,7 @@ class Build:
         # A netlist is nobody's style.
         command += ["-Wno-fatal", "-Wno-lint", "-Wno-style"] if self.args.netlist else ["-Wall"]
         command += ["--unroll-count", str(unroll), "--unroll-stmts", "1000000"]
-        command += [*(f"-I{folder}" for folder in places("includes", self.rtl)), "-CFLAGS", CFLAGS]
+        command += [*(f"-I{folder}" for folder in places("includes", self.rtl)), "-CFLAGS", self.cflags]
         command += [f"-G{n}={v}" for n, v in self.values.items()] + [f"-D{d}" for d in self.args.define]
         if self.args.waves:
             command += ["--trace-fst", "--trace-structs"]  # a bus by its fields
@@ -243,7 +254,7 @@ class Build:
             objects.append("verilated_dpi.o")
         if self.args.lines:
             objects.append("verilated_cov.o")
-        runtime = Runtime(self.verilator, self.cxx, [*flags, CFLAGS], self.obj)
+        runtime = Runtime(self.verilator, self.cxx, [*flags, self.cflags], self.obj)
         runtime.take(objects)
         run("compiling the model", [*make, "Vkage__ALL.o", *objects], self.log)
         runtime.keep(objects)
@@ -253,6 +264,8 @@ class Build:
         command = [*self.cxx, "-shared", "-o", library, *objects]
         if self.args.waves:
             command += ["-lz", *(f"-Wl,--wrap={f}" for f in ("fwrite", "fputc", "fseeko", "fflush", "fclose"))]
+        if self.clang:  # it calls a function for what g++ knows of atomic numbers
+            command.append("-latomic")
         command += ["-Wl,-Bsymbolic", "-Wl,--exclude-libs,ALL", "-Wl,-z,defs", "-pthread"]
         run("linking the model", command, self.log)
 
