@@ -7,6 +7,7 @@ find_package(OpenImageIO REQUIRED QUIET)
 set(CMAKE_MESSAGE_LOG_LEVEL ${CMAKE_MESSAGE_LOG_LEVEL_kept})
 
 find_package(LibWebP REQUIRED)
+find_package(TIFF REQUIRED)
 
 # Debian 12's OpenImageIO names folders of packages that it does not depend on (opencv).
 get_target_property(kage_oiio_dirs OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)

@@ -308,8 +308,8 @@ DiffResult diff_by_lines(PictureReader& a, PictureReader& b, const DiffOptions& 
 
 DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::path& b, const DiffOptions& options,
                       DiffViews* views) {
-  const auto reader_a = open_picture(a, options.part);
-  const auto reader_b = open_picture(b, options.part);
+  const auto reader_a = open_picture(a, options.part, options.max_bytes);
+  const auto reader_b = open_picture(b, options.part, options.max_bytes);
   const bool whole = views != nullptr || options.perceptual;
   check_memory(fmt::format("{}, {}: to compare them takes", a.string(), b.string()).c_str(),
                bytes_of(*reader_a, whole, options) + bytes_of(*reader_b, whole, options), options.max_bytes);
@@ -322,7 +322,9 @@ DiffResult diff_files(const std::filesystem::path& a, const std::filesystem::pat
     if (views != nullptr) frame_regions(views->heat, r.regions);
     return r;
   } catch (const Error& e) {
-    throw Error(fmt::format("{}: {}", a.string(), e.what()));
+    const std::string_view said = e.what();  // by a reader, with its file's name, or by the comparison, without one
+    if (said.starts_with(a.string() + ": ") || said.starts_with(b.string() + ": ")) throw;
+    throw Error(fmt::format("{}: {}", a.string(), said));
   }
 }
 

@@ -6,9 +6,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "file/regular_file.hpp"
 #include "image/encoder.hpp"
 #include "image/memory.hpp"
 #include "image/module/table.hpp"
+#include "image/opening.hpp"
 #include "image/picture.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
@@ -85,7 +87,11 @@ std::string unlike(const Picture& a, const Picture& b) {
   return "";
 }
 
-std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, int part) {
+std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, int part,
+                                            std::optional<std::uint64_t> max_bytes) {
+  check_regular(path);
+  if (const std::uint64_t bytes = bytes_of_opening(path); bytes > 0)
+    check_memory(fmt::format("{}: opening it takes", path.string()).c_str(), bytes, max_bytes);
   const PictureModule& module = module_table<PictureModule>();
   const ForeignCode mark(path.string() + ": reading it");
   return module.open(path, part);
@@ -103,7 +109,7 @@ Picture whole_picture(PictureReader& reader) {
 }
 
 Picture load_picture(const std::filesystem::path& path, int part, std::optional<std::uint64_t> max_bytes) {
-  const auto reader = open_picture(path, part);
+  const auto reader = open_picture(path, part, max_bytes);
   const Picture& head = reader->head();
   check_memory(fmt::format("{}: {}x{} pixels take", path.string(), head.width, head.height).c_str(),
                reader->own_bytes() + reader->line_bytes() * static_cast<std::uint64_t>(head.height), max_bytes);

@@ -86,8 +86,9 @@ class PictureReader {
   std::uint64_t own_bytes_ = 0;
 };
 
-/// Opens a flat picture; alpha is taken as stored. `part` as load_picture() has it. Throws Error.
-std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, int part = -1);
+/// Opens a flat picture; alpha is taken as stored. `part` and `max_bytes` as load_picture() has them. Throws Error.
+std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, int part = -1,
+                                            std::optional<std::uint64_t> max_bytes = {});
 
 /// All of a reader's lines.
 Picture whole_picture(PictureReader& reader);

@@ -44,6 +44,7 @@ PngChunks read_png_chunks(const std::filesystem::path& path) {
     const std::streamoff next = static_cast<std::streamoff>(in.tellg()) + size + 4;  // behind the checksum
     if (tag == "IDAT" || tag == "IEND") break;
     if (tag == "acTL") found.animated = true;
+    if (tag == "iCCP") found.profile = true;
     if (tag == "IHDR" && size == 13 && read(13)) {
       if (bytes[9] != 3) found.bits = bytes[8];
       found.interlaced = bytes[12] != 0;

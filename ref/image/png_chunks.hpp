@@ -18,6 +18,7 @@ struct PngChunks {
   /// the numbers are "" where the file has none.
   std::vector<std::pair<std::string, std::string>> more{
       {"CICP", ""}, {"number of significant bits", ""}, {"mastering display", ""}, {"content light level", ""}};
+  bool profile = false;     ///< it has an ICC profile, which libpng may refuse
   bool animated = false;    ///< more pictures than the first
   bool interlaced = false;  ///< it is there in seven parts, so no line is known before the last part
 };

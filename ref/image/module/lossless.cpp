@@ -7,10 +7,9 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <fstream>
-#include <optional>
 #include <string>
 
+#include "image/file_bytes.hpp"
 #include "kage/error.hpp"
 
 namespace kage::picture_module {
@@ -20,38 +19,7 @@ namespace {
   throw Error(fmt::format("{}: {}, which is not read without loss", path.string(), cause));
 }
 
-/// Bytes of a file by their place. Behind the end all are 0.
-class Bytes {
- public:
-  explicit Bytes(const std::filesystem::path& path) : in_(path, std::ios::binary) {}
-
-  std::uint32_t byte(std::uint64_t at) { return number(at, 1, false); }
-  std::uint32_t little(std::uint64_t at, int bytes) { return number(at, bytes, false); }
-  std::uint32_t number(std::uint64_t at, int bytes, bool big) {
-    std::array<char, 4> text{};
-    in_.clear();
-    if (at > kMostPlace || !in_.seekg(static_cast<std::streamoff>(at)) || !in_.read(text.data(), bytes)) {
-      ended_ = true;
-      return 0;
-    }
-    std::uint32_t value = 0;
-    for (int i = 0; i < bytes; ++i)
-      value |= static_cast<std::uint32_t>(static_cast<unsigned char>(text[static_cast<std::size_t>(i)]))
-               << 8 * (big ? bytes - 1 - i : i);
-    return value;
-  }
-  std::string text(std::uint64_t at, int bytes) {
-    std::string all;
-    for (int i = 0; i < bytes; ++i) all += static_cast<char>(byte(at + static_cast<std::uint64_t>(i)));
-    return all;
-  }
-  [[nodiscard]] bool ended() const { return ended_; }
-
- private:
-  static constexpr std::uint64_t kMostPlace = std::uint64_t{1} << 62;
-  std::ifstream in_;
-  bool ended_ = false;
-};
+using Bytes = FileBytes;
 
 /// Whether a picture of the file has a colour that is transparent: OpenImageIO makes it black.
 bool gif_is_transparent(Bytes& file) {
@@ -81,9 +49,59 @@ std::string lost_of_targa(Bytes& file) {
   const std::uint32_t alpha_bits = file.byte(17) & 15;
   const std::uint32_t entry_bits = file.byte(7);
   const std::uint32_t pixel_bits = file.byte(16);
+  if ((file.byte(17) & 0xC0) != 0) return "has interleaved lines";
   if (type == 1 && (entry_bits == 32 || (entry_bits == 16 && alpha_bits != 0))) return "has a palette with alpha";
-  if (type == 2 && pixel_bits == 16 && alpha_bits != 0) return "has one bit of alpha";
+  if (type == 2 && (pixel_bits == 15 || pixel_bits == 16) && alpha_bits != 0) return "has one bit of alpha";
   if (type == 3 && pixel_bits == 16 && alpha_bits == 0) return "has grey of 16 bits";
+  return "";
+}
+
+/// OpenImageIO takes bits of a pixel as the format has them without masks, and lines that are packed as they come.
+std::string lost_of_bmp(Bytes& file) {
+  constexpr std::uint32_t kOldHead = 12;
+  constexpr std::uint32_t kMasks = 3;
+  if (file.little(14, 4) == kOldHead) return "";
+  const std::uint32_t compression = file.little(30, 4);
+  if (compression == 0) return "";
+  if (compression != kMasks) return "is compressed";
+  constexpr std::array kUsual{0xFF0000U, 0xFF00U, 0xFFU};
+  for (std::uint64_t i = 0; i < kUsual.size(); ++i)
+    if (file.little(28, 2) != 32 || file.little(54 + 4 * i, 4) != kUsual[i]) return "has bits in places of its own";
+  return "";
+}
+
+std::string lost_of_jpeg(Bytes& file) {
+  std::string lost;
+  each_jpeg_segment(file, [&](std::uint32_t marker, std::uint64_t at, std::uint32_t bytes) {
+    constexpr std::uint32_t kFormats = 0xE2;  // APP2
+    if (marker == kFormats && bytes > 4 && file.text(at, 4) == std::string("MPF\0", 4))
+      lost = "holds pictures behind the first";
+  });
+  return lost;
+}
+
+/// OpenImageIO gives 16 bits of a value.
+std::string lost_of_jpeg2000(Bytes& file) {
+  const std::uint64_t at = jpeg2000_size(file);
+  if (at == 0) return "";
+  const std::uint32_t components = file.big(at + 36, 2);
+  for (std::uint64_t c = 0; c < components && !file.ended(); ++c) {
+    constexpr std::uint32_t kBits = 0x7F;  // one less
+    if ((file.byte(at + 38 + 3 * c) & kBits) >= 16) return "has values of more than 16 bits";
+  }
+  return "";
+}
+
+/// An orientation behind the picture, which libpng's readers do not see when they begin.
+std::string lost_of_png(Bytes& file) {
+  bool behind = false;
+  for (std::uint64_t at = 8; !file.ended();) {
+    const std::string tag = file.text(at + 4, 4);
+    if (tag == "IEND") break;
+    if (tag == "eXIf" && behind) return "has its notes behind the picture (eXIf)";
+    behind = behind || tag == "IDAT";
+    at += std::uint64_t{12} + file.big(at, 4);
+  }
   return "";
 }
 
@@ -154,6 +172,14 @@ void refuse_lossy_file(const std::filesystem::path& path) {
     if (gif_is_transparent(file)) lost = "has a transparent colour";
   } else if (begin == "DDS ") {
     lost = lost_of_dds(file);
+  } else if (begin == "\x89PNG") {
+    lost = lost_of_png(file);
+  } else if (begin.compare(0, 2, "BM") == 0) {
+    lost = lost_of_bmp(file);
+  } else if (begin.compare(0, 3, "\xFF\xD8\xFF") == 0) {
+    lost = lost_of_jpeg(file);
+  } else if (jpeg2000_size(file) != 0) {
+    lost = lost_of_jpeg2000(file);
   } else if (is_big_tiff(file)) {
     if (big_tiff_has_palette(file)) lost = "has a palette in a BigTIFF file";
   } else if (begin == std::string("II*\0", 4) || begin == std::string("MM\0*", 4)) {
@@ -163,8 +189,8 @@ void refuse_lossy_file(const std::filesystem::path& path) {
 }
 
 void refuse_lossy_format(const std::filesystem::path& path, std::string_view format) {
-  constexpr std::array kTried{"bmp",     "dds", "dpx", "fits", "gif", "hdr",   "iff",  "jpeg", "jpeg2000",
-                              "openexr", "png", "pnm", "rla",  "sgi", "targa", "tiff", "webp", "zfile"};
+  constexpr std::array kTried{"bmp", "dds", "dpx", "gif", "hdr",   "iff",  "jpeg", "jpeg2000", "openexr",
+                              "png", "pnm", "rla", "sgi", "targa", "tiff", "webp", "zfile"};
   if (std::find(kTried.begin(), kTried.end(), format) == kTried.end())
     refuse(path, fmt::format("is of the format {}", format));
   if (format != "targa") return;  // which has no mark at its beginning, and is known by no name

@@ -5,15 +5,21 @@
 #include <fmt/ranges.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <memory>
+#include <new>
+#include <optional>
 #include <span>
+#include <thread>
 
 #include "file/read_file.hpp"
-#include "file/regular_file.hpp"
+#include "image/file_bytes.hpp"
 #include "image/module/lossless.hpp"
+#include "image/module/pnm.hpp"
 #include "image/module/table.hpp"
+#include "image/module/tiff.hpp"
 #include "image/module/webp.hpp"
 #include "image/png_chunks.hpp"
 #include "kage/error.hpp"
@@ -32,6 +38,20 @@ namespace {
   while (!text.empty() && text.back() == ' ') text.pop_back();
   if (text.rfind("OpenImageIO could not find a format reader", 0) == 0) text = "no format of pictures that is read";
   throw Error(fmt::format("{}: {}", path.string(), text.empty() ? "cannot be read" : text));
+}
+
+/// Calls `body`. OpenImageIO may let through what its own library throws; that becomes an Error with the file's name.
+template <class Body>
+auto without_foreign_throw(const std::filesystem::path& path, Body body) -> decltype(body()) {
+  try {
+    return body();
+  } catch (const Error&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    fail(path, fmt::format("its reader ends by an error ({})", e.what()));
+  }
 }
 
 Sample sample_of(const OIIO::TypeDesc& type, const std::filesystem::path& path) {
@@ -77,6 +97,47 @@ std::string note_text(const OIIO::ImageSpec& spec, const char* name) {
   return value->get_string();
 }
 
+/// Notes of a file's own head that OpenImageIO does not tell. A format that has no such note has none.
+struct HeadNotes {
+  std::string largest;  ///< PNM: the largest value
+  std::string extra;    ///< TIFF: what the values beside the colours are
+  std::string light;    ///< Radiance: lines that say how bright and of which colour a value is
+  std::string space;    ///< BMP: a colour space other than that of a display
+};
+
+std::string light_of_radiance(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string all;
+  for (std::string line; std::getline(in, line) && !line.empty();)
+    for (const std::string_view name : {"EXPOSURE=", "COLORCORR=", "PRIMARIES=", "PIXASPECT="})
+      if (line.starts_with(name)) all += (all.empty() ? "" : " ") + line;
+  return all;
+}
+
+std::string space_of_bmp(const std::filesystem::path& path) {
+  FileBytes file(path);
+  constexpr std::uint32_t kVersion4 = 108;
+  constexpr std::uint32_t kSrgb = 0x73524742;
+  constexpr std::uint32_t kDisplay = 0x57696E20;
+  const std::uint32_t size = file.little(14, 4);
+  const std::uint32_t space = file.little(70, 4);
+  if (size < kVersion4 || space == kSrgb || space == kDisplay) return "";
+  const std::string numbers = file.text(74, 48);  // end points and gamma
+  if (space == 0 && numbers == std::string(48, '\0')) return "";
+  const std::string profile =
+      size > kVersion4 ? file.text(std::uint64_t{14} + file.little(126, 4), file.little(130, 4)) : "";
+  const std::string all = numbers + profile;
+  return fmt::format("{:08x}, CRC-32 {:08x}", space,
+                     crc32_z(0, reinterpret_cast<const Bytef*>(all.data()), all.size()));
+}
+
+/// The largest value that the format's integers can have.
+std::string largest_value(const OIIO::ImageSpec& spec, int bits) {
+  if (spec.format.is_floating_point()) return "none";
+  const int all = bits == 0 ? static_cast<int>(spec.format.size() * 8) : bits;
+  return fmt::format("{}", all >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << all) - 1);
+}
+
 constexpr int kCmyk = 5;
 constexpr int kYcbcr = 6;
 
@@ -91,7 +152,8 @@ std::string photometric_words(int number) {
 }
 
 /// Notes that change the meaning of the same numbers.
-std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks& png, std::string_view format) {
+std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks& png, const HeadNotes& head,
+                                    std::string_view format) {
   const int bits = spec.get_int_attribute("oiio:BitsPerSample", png.bits);
   const std::string chromaticities = note_text(spec, "chromaticities");
   const auto only = [&](std::string_view has, const std::string& text) {
@@ -101,6 +163,10 @@ std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks
   std::vector<Picture::Note> notes{
       {"display window", fmt::format("{}x{} at {},{}", spec.full_width, spec.full_height, spec.full_x, spec.full_y)},
       {"number of bits", fmt::format("{}", bits == 0 ? static_cast<int>(spec.format.size() * 8) : bits)},
+      {"largest value", head.largest.empty() ? largest_value(spec, bits) : head.largest},
+      {"extra samples", only("tiff", head.extra)},
+      {"exposure", only("hdr", head.light)},
+      {"BMP colour space", only("bmp", head.space)},
       {"photometric interpretation", only("tiff", photometric_words(photometric(spec)))},
       {"orientation", all_but_pnm(fmt::format("{}", spec.get_int_attribute("Orientation", 1)))},
       {"chromaticity", all_but_pnm(chromaticities.empty() ? png.chromaticities : chromaticities)},
@@ -158,7 +224,8 @@ void choose_part(OIIO::ImageInput& input, const std::filesystem::path& path, int
 }
 
 /// The file's first picture, or the one that was asked for, described; its pixels are left out.
-Picture described(OIIO::ImageInput& input, const std::filesystem::path& path, const PngChunks& png) {
+Picture described(OIIO::ImageInput& input, const std::filesystem::path& path, const PngChunks& png,
+                  const HeadNotes& head) {
   const OIIO::ImageSpec& spec = input.spec();
   if (spec.deep || spec.depth > 1) fail(path, "is not a flat picture");
   Picture picture;
@@ -174,7 +241,7 @@ Picture described(OIIO::ImageInput& input, const std::filesystem::path& path, co
   picture.alpha = spec.alpha_channel;
   // In a GIF it is a number behind the last channel.
   if (picture.alpha >= spec.nchannels) picture.alpha = spec.channelindex("A");
-  picture.notes = notes_of(spec, png, input.format_name());
+  picture.notes = notes_of(spec, png, head, input.format_name());
   if (spec.width <= 0 || spec.height <= 0 || spec.nchannels <= 0)
     fail(path, fmt::format("size {}x{} with {} channels is refused", spec.width, spec.height, spec.nchannels));
   return picture;
@@ -186,34 +253,65 @@ bool comes_in_lines(std::string_view format, const OIIO::ImageSpec& spec, const 
   return (format == "openexr" || format == "hdr" || format == "dpx") && spec.tile_width == 0;
 }
 
+/// Bytes that OpenEXR has for blocks of lines, some of them in work at a time: as they are stored, decoded, and
+/// between.
+std::uint64_t bytes_of_blocks(const OIIO::ImageSpec& spec) {
+  const std::string kind(spec.get_string_attribute("compression"));
+  std::uint64_t lines = 1;
+  if (kind == "zip" || kind == "pxr24") lines = 16;
+  if (kind == "piz" || kind == "b44" || kind == "b44a" || kind == "dwaa") lines = 32;
+  if (kind == "dwab") lines = 256;
+  const std::uint64_t height = static_cast<std::uint64_t>(std::max(spec.height, 1));
+  const std::uint64_t at_once =
+      std::min<std::uint64_t>((height + lines - 1) / lines, 2U * std::thread::hardware_concurrency());
+  constexpr std::uint64_t kForms = 4;
+  return kForms * at_once * std::min(lines, height) * spec.scanline_bytes(true);
+}
+
 /// Any file that OpenImageIO reads without loss.
 class FileReader : public PictureReader {
  public:
   FileReader(const std::filesystem::path& path, int part) : path_(path), part_(std::max(part, 0)) {
+    const std::optional<std::string> largest = largest_of_pnm(path);
     input_ = open_input(path);
     choose_part(*input_, path, part);
+    const std::string_view format = input_->format_name();
     const PngChunks png = read_png_chunks(path);
     if (png.animated) fail(path, "is animated: only files of one picture are compared");
-    head_ = described(*input_, path, png);
+    HeadNotes notes;
+    if (largest) notes.largest = *largest;
+    if (format == "pnm" && !largest) fail(path, "is a Netpbm file of no kind that is read");
+    if (format == "tiff") notes.extra = check_tiff(path, part_);
+    if (format == "hdr") notes.light = light_of_radiance(path);
+    if (format == "bmp") notes.space = space_of_bmp(path);
+    head_ = described(*input_, path, png, notes);
     spec_ = input_->spec();
+    if (png.profile && spec_.find_attribute("ICCProfile") == nullptr) fail(path, "has an ICC profile that is damaged");
     if (input_->seek_subimage(part_, 1))
       fail(path, "holds several sizes (a mipmap): only files of one picture are compared");
     (void)input_->geterror();
     if (!input_->seek_subimage(part_, 0)) fail(path, input_->geterror());
-    if (!comes_in_lines(input_->format_name(), spec_, png)) own_bytes_ = spec_.image_bytes(true);
+    if (!comes_in_lines(format, spec_, png)) own_bytes_ = spec_.image_bytes(true);
+    if (format == "openexr" && spec_.tile_width == 0) own_bytes_ = bytes_of_blocks(spec_);
+    constexpr int kJpeg = 7;  // comes as a whole, with alpha
+    if (spec_.get_int_attribute("tiff:Compression") == kJpeg) own_bytes_ += 5 * spec_.image_pixels();
     constexpr std::uint64_t kStepBytes = std::uint64_t{1} << 20;
     step_ = static_cast<int>(std::clamp<std::uint64_t>(kStepBytes / std::max<std::uint64_t>(line_bytes(), 1), 1, 1024));
     if (spec_.tile_height > 0) step_ = (step_ + spec_.tile_height - 1) / spec_.tile_height * spec_.tile_height;
+    // OpenImageIO reads zeros for one line of doubles of a TIFF, so there is never one left alone.
+    if (format == "tiff" && spec_.format == OIIO::TypeDesc::DOUBLE) step_ = spec_.height;
   }
 
   void read(int y, int count, std::byte* to) override {
     const int from = spec_.y + y;
     // Without a type each channel keeps its own: one for all would round the integers of a file that has floats too.
     const OIIO::TypeDesc own = OIIO::TypeDesc::UNKNOWN;
-    const bool done = spec_.tile_width > 0
-                          ? input_->read_tiles(part_, 0, spec_.x, spec_.x + spec_.width, from, from + count, spec_.z,
-                                               spec_.z + 1, 0, spec_.nchannels, own, to)
-                          : input_->read_scanlines(part_, 0, from, from + count, spec_.z, 0, spec_.nchannels, own, to);
+    const bool done = without_foreign_throw(path_, [&] {
+      return spec_.tile_width > 0
+                 ? input_->read_tiles(part_, 0, spec_.x, spec_.x + spec_.width, from, from + count, spec_.z,
+                                      spec_.z + 1, 0, spec_.nchannels, own, to)
+                 : input_->read_scanlines(part_, 0, from, from + count, spec_.z, 0, spec_.nchannels, own, to);
+    });
     if (!done) fail(path_, input_->geterror());
   }
 
@@ -237,15 +335,16 @@ class WebpReader : public PictureReader {
     if (!webp_.profile.empty())
       spec.attribute("ICCProfile", OIIO::TypeDesc(OIIO::TypeDesc::UINT8, static_cast<int>(webp_.profile.size())),
                      webp_.profile.data());
-    spec.attribute("Orientation", input->spec().get_int_attribute("Orientation", 1));
+    spec.attribute("Orientation", webp_.orientation);
     head_.width = webp_.width;
     head_.height = webp_.height;
     head_.pixel_bytes = static_cast<std::size_t>(spec.nchannels);
     for (std::size_t c = 0; c < head_.pixel_bytes; ++c) head_.channels.push_back({{"RGBA"[c]}, Sample::kU8, c});
     head_.alpha = webp_.alpha ? 3 : -1;
-    head_.notes = notes_of(spec, {}, "webp");
+    head_.notes = notes_of(spec, {}, {}, "webp");
     step_ = webp_.height;
-    own_bytes_ = line_bytes() * static_cast<std::uint64_t>(webp_.height);
+    own_bytes_ = (line_bytes() + (webp_.alpha ? 0U : 4U * static_cast<std::uint64_t>(webp_.width))) *
+                 static_cast<std::uint64_t>(webp_.height);
   }
 
   void read(int y, int count, std::byte* to) override {
@@ -273,10 +372,11 @@ bool is_webp(const std::filesystem::path& path) {
 }  // namespace
 
 std::unique_ptr<PictureReader> open(const std::filesystem::path& path, int part) {
-  check_regular(path);
   refuse_lossy_file(path);
-  if (is_webp(path)) return std::make_unique<WebpReader>(path, part);
-  return std::make_unique<FileReader>(path, part);
+  return without_foreign_throw(path, [&]() -> std::unique_ptr<PictureReader> {
+    if (is_webp(path)) return std::make_unique<WebpReader>(path, part);
+    return std::make_unique<FileReader>(path, part);
+  });
 }
 
 }  // namespace kage::picture_module

@@ -14,6 +14,7 @@ struct WebpHead {
   int width = 0;
   int height = 0;
   bool alpha = false;
+  int orientation = 1;  ///< Exif's number
   std::string profile;  ///< of chunk ICCP; empty if there is none
 };
 
