@@ -9,7 +9,10 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <latch>
 #include <string_view>
+#include <system_error>
+#include <thread>
 #include <vector>
 
 #include "kage/error.hpp"
@@ -53,18 +56,36 @@ fs::path find(const std::string& file, const std::string& what_for) {
 }
 
 void check_room(const fs::path& path, const std::string& what_for, std::size_t room) {
-  if (room == 0) return;
   void* const free = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (free == MAP_FAILED)
     throw Error(fmt::format("{}: takes {} MiB of memory (ulimit -v), and {}", path.string(), room >> 20, what_for));
   munmap(free, room);
 }
 
+/// Libraries that start threads as they are opened may wait for ever where one cannot be started, and hear no signal;
+/// so as many are tried before.
+void check_threads(const fs::path& path, const std::string& what_for) {
+  const unsigned count = 8 + 2 * std::thread::hardware_concurrency();
+  std::latch tried(1);
+  std::vector<std::jthread> threads;
+  try {
+    for (unsigned i = 0; i < count; ++i) threads.emplace_back([&tried] { tried.wait(); });
+  } catch (const std::system_error& e) {
+    tried.count_down();
+    throw Error(fmt::format("{}: starts up to {} threads, and there is no room for them ({}; ulimit -u), and {}",
+                            path.string(), count, e.code().message(), what_for));
+  }
+  tried.count_down();
+}
+
 }  // namespace
 
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room) {
   const fs::path path = find("lib" + name + ".so", what_for);
-  check_room(path, what_for, room);
+  if (room > 0) {
+    check_room(path, what_for, room);
+    check_threads(path, what_for);
+  }
   // It may bind symbols of large libraries, so each only when it is called.
   const std::lock_guard<std::mutex> lock(loader_lock());
   void* const handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);

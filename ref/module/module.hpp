@@ -20,7 +20,7 @@ struct ModuleHead {
 /// was installed, unless others than this user and root may write there, and returns what its function NAME_table()
 /// gives. It stays open. Throws Error that names the file that is missing and what cannot be done without it. Libraries
 /// that start threads end the program where one finds no memory, so a module is refused unless `room` bytes of address
-/// space are free.
+/// space are free; and unless some threads can be started, if `room` is not 0.
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room);
 
 /// The table of a module, opened once.

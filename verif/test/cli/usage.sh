@@ -189,6 +189,21 @@ for command in "info none.gltf" "info heard.kage" "list" "diff heard.kage heard.
     grep -qE 'not JSON|not found|cut off|is empty' stderr && fail "ulimit -n $files, $command: a wrong cause: $(cat stderr)"
   done
 done
+# So few threads that one cannot be started: the same. A user of its own has them, where this one may be another.
+other=(setpriv --reuid=64999 --regid=64999 --clear-groups)
+if "${other[@]}" "$kage" --version >/dev/null 2>&1; then
+  printf 'P6\n1 1\n255\nabc' >one.ppm && chmod a+rx . && chmod a+r one.ppm
+  for threads in 1 2 3 4 6 9 12 $((2 * $(nproc) + 40)); do
+    for command in "diff one.ppm one.ppm" "diff one.ppm one.ppm --perceptual"; do
+      rc=0
+      # shellcheck disable=SC2086
+      timeout -s KILL 60 "${other[@]}" prlimit --nproc=$threads "$kage" $command >stdout 2>stderr || rc=$?
+      [ $rc = 0 ] || { [ $rc = 2 ] && [ "$(wc -l <stderr)" = 1 ] && grep -qi 'temporarily unavailable' stderr; } ||
+        fail "$threads threads, $command: exit $rc, $(cat stderr)"
+    done
+  done
+  [ $rc = 0 ] || fail "$threads threads are too few: $(cat stderr)"
+fi
 set +o pipefail
 "$kage" info heard.kage --tokens 0 2>stderr | head -n 1 >first
 set -o pipefail
