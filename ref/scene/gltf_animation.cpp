@@ -32,7 +32,12 @@ void GltfAnimation::read_channel(const Json& animation, const Json& channel, con
   const std::string path = file_->text(target, "path", place);
   const auto sampler_index = file_->integer(channel, "sampler", place);
   const Json& samplers = file_->array(animation, "samplers", place);
+  const std::size_t nodes = file_->count("nodes");
+  if (node && *node >= nodes)
+    file_->fail(place, "asks for number " + std::to_string(*node) + " of " + std::to_string(nodes) + " nodes");
   if (!is_drawn_path(target, path, node.has_value(), place)) return;
+  if (const auto [at, fresh] = channel_of_.try_emplace({*node, path}, place); !fresh)
+    file_->fail(place, "moves node " + std::to_string(*node) + " (" + path + "), as " + at->second + " does");
   const auto known = node_of.find(*node);
   if (known == node_of.end()) return;  // of another scene
 
@@ -57,9 +62,11 @@ void GltfAnimation::read_channel(const Json& animation, const Json& channel, con
   const auto input = file_->integer(sampler, "input", place);
   const auto output = file_->integer(sampler, "output", place);
   if (!input || !output) file_->fail(place, "its sampler has no input or output");
-  const std::vector<float> times = file_->floats(*input, 1, 1, place).values;
-  const std::size_t components = track.path == RawPath::kWeights ? 1 : track.width();
-  const std::vector<float> values = file_->floats(*output, components, components, place).values;
+  const std::vector<float> times = file_->floats(*input, GltfUse::times, place).values;
+  const GltfUse use = track.path == RawPath::kWeights    ? GltfUse::morph_weights
+                      : track.path == RawPath::kRotation ? GltfUse::rotations
+                                                         : GltfUse::vectors;
+  const std::vector<float> values = file_->floats(*output, use, place).values;
   const std::size_t per_key = track.width() * (track.interpolation == RawInterpolation::kCubic ? 3 : 1);
   if (values.size() != times.size() * per_key) file_->fail(place, "has not one value for each time");
   for (std::size_t i = 1; i < times.size(); ++i)
@@ -75,7 +82,9 @@ void GltfAnimation::read_channel(const Json& animation, const Json& channel, con
   track.values.assign(values.begin(), values.end());
   if (times.empty()) return;
   // A matrix is not to be animated, says the format; a track then replaces it, as it does a translation or rotation.
-  if (track.path != RawPath::kWeights) scene_->nodes[track.node].fixed = false;
+  bool& fixed = scene_->nodes[track.node].fixed;
+  counts_.matrices += track.path != RawPath::kWeights && fixed ? 1 : 0;
+  if (track.path != RawPath::kWeights) fixed = false;
   scene_->tracks.push_back(std::move(track));
 }
 

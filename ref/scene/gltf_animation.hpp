@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "gltf_file.hpp"
 #include "raw.hpp"
@@ -20,6 +21,7 @@ class GltfAnimation {
     std::size_t blinking = 0;  ///< of visibility
     std::size_t pointed = 0;   ///< of what else KHR_animation_pointer reaches
     std::size_t unknown = 0;   ///< of no kind that is known
+    std::size_t matrices = 0;  ///< nodes that have a matrix, which the animation replaces
   };
   using NodeNumbers = std::map<std::uint64_t, std::uint32_t>;  ///< file's node -> ours
 
@@ -39,6 +41,7 @@ class GltfAnimation {
   GltfFile* file_;
   RawScene* scene_;
   Counts counts_;
+  std::map<std::pair<std::uint64_t, std::string>, std::string> channel_of_;  // node of the file and path -> its place
 };
 
 }  // namespace kage::scene

@@ -14,6 +14,7 @@
 #include "json/foreign_json.hpp"
 #include "kage/error.hpp"
 #include "notes.hpp"
+#include "number/counted.hpp"
 
 namespace kage::scene {
 namespace {
@@ -104,6 +105,7 @@ struct GltfFile::View {
   const std::uint8_t* data = nullptr;  // null: zeros
   std::uint64_t length = 0;
   std::uint64_t stride = 0;  // 0: elements lie next to each other
+  std::uint64_t number = 0;
 };
 
 struct GltfFile::Accessor {
@@ -125,26 +127,8 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name, bool all
     : GltfJson(std::move(name)), side_files_(path, allow_outside) {
   Bytes text = read_bytes(path, std::numeric_limits<std::uint64_t>::max());
   if (text.size() >= 4 && std::memcmp(text.data(), "glTF", 4) == 0) {
-    is_binary_ = true;
-    if (text.size() < 20) fail("header", "the file ends within it");
-    version_2_ = little(text.data() + 4) != 1;
+    read_chunks(text);
     if (!version_2_) return;
-    if (little(text.data() + 4) != 2)
-      fail("header", "version " + std::to_string(little(text.data() + 4)) + " is not 2");
-    if (little(text.data() + 8) > text.size())
-      fail("header",
-           "says " + std::to_string(little(text.data() + 8)) + " bytes, the file has " + std::to_string(text.size()));
-    const std::uint64_t json_bytes = little(text.data() + 12);
-    if (little(text.data() + 16) != 0x4e4f534a || 20 + json_bytes > text.size())
-      fail("JSON chunk", "missing or cut off");
-    const std::uint64_t next = 20 + json_bytes;
-    if (next + 8 <= text.size() && little(text.data() + next + 4) == 0x004e4942) {
-      const std::uint64_t bytes = little(text.data() + next);
-      if (next + 8 + bytes > text.size()) fail("BIN chunk", "cut off");
-      const auto begin = text.begin() + static_cast<std::ptrdiff_t>(next + 8);
-      binary_.assign(begin, begin + static_cast<std::ptrdiff_t>(bytes));
-    }
-    text = Bytes(text.begin() + 20, text.begin() + static_cast<std::ptrdiff_t>(next));
   }
   // Buffers may be in the text, so its size is limited as that of any scene: by the reader's memory.
   set_root(parse_json<Json>({reinterpret_cast<const char*>(text.data()), text.size()}, this->name(),
@@ -159,6 +143,34 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name, bool all
   const std::string least = this->text(asset, "minVersion", "asset");
   if (!least.empty() && least != "2.0") fail("asset", "minVersion " + one_line(least, 20) + " is above 2.0");
   buffers_.resize(count("buffers"));
+}
+
+/// Of a binary file: takes the buffer out of it, and leaves the JSON of `text`.
+void GltfFile::read_chunks(Bytes& text) {
+  is_binary_ = true;
+  if (text.size() < 20) fail("header", "the file ends within it");
+  version_2_ = little(text.data() + 4) != 1;
+  if (!version_2_) return;
+  if (little(text.data() + 4) != 2) fail("header", "version " + std::to_string(little(text.data() + 4)) + " is not 2");
+  const std::uint64_t whole = little(text.data() + 8);
+  if (whole > text.size())
+    fail("header", "says " + std::to_string(whole) + " bytes, the file has " + std::to_string(text.size()));
+  const std::uint64_t json_bytes = little(text.data() + 12);
+  if (little(text.data() + 16) != 0x4e4f534a || 20 + json_bytes > text.size()) fail("JSON chunk", "missing or cut off");
+  const std::uint64_t next = 20 + json_bytes;
+  std::uint64_t end = next;
+  if (next + 8 <= text.size() && little(text.data() + next + 4) == 0x004e4942) {
+    const std::uint64_t bytes = little(text.data() + next);
+    if (next + 8 + bytes > text.size()) fail("BIN chunk", "cut off");
+    end = next + 8 + bytes;
+    const auto begin = text.begin() + static_cast<std::ptrdiff_t>(next + 8);
+    binary_.assign(begin, begin + static_cast<std::ptrdiff_t>(bytes));
+  }
+  if (whole < end) fail("header", "says " + std::to_string(whole) + " bytes, its chunks end at " + std::to_string(end));
+  if (whole < text.size())
+    remarks_.add(counted(text.size() - whole, "byte") + " behind the length that the header says " +
+                 (text.size() - whole == 1 ? "is" : "are") + " ignored");
+  text = Bytes(text.begin() + 20, text.begin() + static_cast<std::ptrdiff_t>(next));
 }
 
 const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
@@ -199,14 +211,30 @@ GltfFile::View GltfFile::view(std::uint64_t index, const std::string& place) {
   const Bytes& bytes = buffer(*source, here);
   const std::uint64_t offset = integer(json, "byteOffset", here).value_or(0);
   View v;
+  v.number = index;
   v.length = integer(json, "byteLength", here).value_or(0);
-  v.stride = integer(json, "byteStride", here).value_or(0);
+  const std::optional<std::uint64_t> stride = integer(json, "byteStride", here);
+  v.stride = stride.value_or(0);
+  if (v.stride != 0 && (v.stride % 4 != 0 || v.stride > 252))
+    fail(here, "byteStride " + std::to_string(v.stride) + " is not a multiple of 4 from 4 to 252");
+  // Files of glTF 1 said so where elements lie next to each other.
+  if (stride == 0) remarks_.add("bufferView", index, "", "byteStride 0, which is taken as none");
   if (offset > bytes.size() || v.length > bytes.size() - offset) fail(here, "goes past the end of its buffer");
   v.data = bytes.data() + offset;
   return v;
 }
 
-GltfFile::Accessor GltfFile::accessor(std::uint64_t index, const std::string& place) {
+/// Elements may not overlap, and only vertices may have gaps between them.
+void GltfFile::check_stride(const View& view, std::uint64_t element, bool of_vertices, const std::string& place) const {
+  if (view.stride == 0 || view.stride == element) return;
+  const std::string says = "byteStride " + std::to_string(view.stride);
+  const std::string here = "bufferView " + std::to_string(view.number);
+  if (view.stride < element)
+    fail(here, says + " is less than the " + std::to_string(element) + " bytes of an element of " + place);
+  if (!of_vertices) fail(here, says + ": the elements of " + place + " are no vertices, and have no gaps");
+}
+
+GltfFile::Accessor GltfFile::accessor(std::uint64_t index, GltfUse use, const std::string& place) {
   const Json& json = item("accessors", index, place);
   const std::string here = "accessor " + std::to_string(index);
   Accessor a;
@@ -219,7 +247,15 @@ GltfFile::Accessor GltfFile::accessor(std::uint64_t index, const std::string& pl
   const std::uint64_t type = integer(json, "componentType", here).value_or(0);
   if (component_size(type) == 0) fail(here, "component type " + std::to_string(type) + " is unknown");
   a.type = static_cast<int>(type);
-  a.normalized = boolean(json, "normalized", false, here);
+  const GltfUseFacts& facts = facts_of(use);
+  if (a.components < facts.least || a.components > facts.most)
+    fail(place, here + " has " + std::to_string(a.components) + " components, not " + std::to_string(facts.least));
+  const GltfReading reading =
+      remarks_.reading(index, use, a.type, boolean(json, "normalized", false, here), uses("KHR_mesh_quantization"));
+  if (!reading.allowed)
+    fail(place, here + " has component type " + type_name(a.type) + ", which " + facts.name + " cannot have");
+  a.normalized = reading.normalized;
+  check_stride(a.view, component_size(type) * a.components, facts.of_vertices, here);
   if (has(json, "sparse")) a.sparse = &object(json, "sparse", here);
   return a;
 }
@@ -231,7 +267,6 @@ void GltfFile::copy(const View& view, std::uint64_t offset, std::uint64_t count,
   const std::size_t size = component_size(static_cast<std::uint64_t>(type));
   const std::uint64_t element = size * components;
   if (stride == 0) stride = element;
-  if (stride > 65536) fail(place, "stride " + std::to_string(stride) + " is too long");
   if (offset > view.length || (count - 1) * stride + element > view.length - offset)
     fail(place, "goes past the end of its bufferView");
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -278,24 +313,25 @@ void GltfFile::elements(const Accessor& a, std::vector<T>& out, const std::strin
   if (!where_view || !what_view) fail(place, "its sparse part names no bufferView");
   std::vector<std::uint32_t> at(static_cast<std::size_t>(n));
   std::vector<T> values(static_cast<std::size_t>(n) * a.components);
-  copy(view(*where_view, place), integer(where, "byteOffset", place).value_or(0), n, 0, static_cast<int>(type), 1,
-       false, at.data(), place);
-  copy(view(*what_view, place), integer(what, "byteOffset", place).value_or(0), n, 0, a.type, a.components,
-       a.normalized, values.data(), place);
+  const View indices = view(*where_view, place);
+  const View replaced = view(*what_view, place);
+  check_stride(indices, component_size(type), false, place);
+  check_stride(replaced, component_size(static_cast<std::uint64_t>(a.type)) * a.components, false, place);
+  copy(indices, integer(where, "byteOffset", place).value_or(0), n, 0, static_cast<int>(type), 1, false, at.data(),
+       place);
+  copy(replaced, integer(what, "byteOffset", place).value_or(0), n, 0, a.type, a.components, a.normalized,
+       values.data(), place);
   for (std::size_t i = 0; i < at.size(); ++i) {
     if (at[i] >= a.count) fail(place, "sparse index " + std::to_string(at[i]) + " of " + std::to_string(a.count));
     for (std::size_t k = 0; k < a.components; ++k) out[at[i] * a.components + k] = values[i * a.components + k];
   }
 }
 
-GltfFile::Floats GltfFile::floats(std::uint64_t index, std::size_t least, std::size_t most, const std::string& place) {
-  const Accessor a = accessor(index, place);
-  const std::string here = "accessor " + std::to_string(index);
-  if (a.components < least || a.components > most)
-    fail(place, here + " has " + std::to_string(a.components) + " components, not " + std::to_string(least));
+GltfFile::Floats GltfFile::floats(std::uint64_t index, GltfUse use, const std::string& place) {
+  const Accessor a = accessor(index, use, place);
   Floats f;
   f.components = a.components;
-  elements(a, f.values, here);
+  elements(a, f.values, "accessor " + std::to_string(index));
   return f;
 }
 
@@ -314,7 +350,7 @@ Affine GltfFile::affine_map(const double* by_columns, const char* what, const st
 }
 
 std::vector<Affine> GltfFile::affine_maps(std::uint64_t index, const std::string& place) {
-  const std::vector<float> values = floats(index, 16, 16, place).values;
+  const std::vector<float> values = floats(index, GltfUse::matrices, place).values;
   std::vector<Affine> maps;
   for (std::size_t i = 0; i < values.size(); i += 16) {
     const std::vector<double> m(values.begin() + static_cast<std::ptrdiff_t>(i),
@@ -326,13 +362,10 @@ std::vector<Affine> GltfFile::affine_maps(std::uint64_t index, const std::string
   return maps;
 }
 
-std::vector<std::uint32_t> GltfFile::indices(std::uint64_t index, const std::string& place, std::size_t components) {
-  const Accessor a = accessor(index, place);
-  const std::string here = "accessor " + std::to_string(index);
-  if (a.components != components || (a.type != 5121 && a.type != 5123 && a.type != 5125))
-    fail(place, here + " does not hold unsigned integers");
+std::vector<std::uint32_t> GltfFile::indices(std::uint64_t index, GltfUse use, const std::string& place) {
+  const Accessor a = accessor(index, use, place);
   std::vector<std::uint32_t> out;
-  elements(a, out, here);
+  elements(a, out, "accessor " + std::to_string(index));
   return out;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "gltf_json.hpp"
+#include "gltf_uses.hpp"
 #include "side_files.hpp"
 #include "transform.hpp"
 
@@ -34,27 +35,31 @@ class GltfFile : public GltfJson {
   [[nodiscard]] bool is_version_2() const { return version_2_; }
   [[nodiscard]] bool is_binary() const { return is_binary_; }
 
-  /// Values of an accessor as floats, normalised integers mapped as glTF says. It has `least` to `most` components:
-  /// 1 (SCALAR) to 4 (VEC4), or 16 (MAT4).
+  /// Values of an accessor as floats, normalised integers mapped as glTF says. Components and types are those that the
+  /// use has (gltf_uses.hpp); others are an Error.
   struct Floats {
     std::vector<float> values;
     std::size_t components = 0;
   };
-  Floats floats(std::uint64_t index, std::size_t least, std::size_t most, const std::string& place);
-  /// Unsigned integers, `components` to an element.
-  std::vector<std::uint32_t> indices(std::uint64_t index, const std::string& place, std::size_t components = 1);
+  Floats floats(std::uint64_t index, GltfUse use, const std::string& place);
+  /// Unsigned integers: joints, four to an element, or indices.
+  std::vector<std::uint32_t> indices(std::uint64_t index, GltfUse use, const std::string& place);
   /// Matrices (MAT4) that are maps. Throws Error where one is projective.
   std::vector<Affine> affine_maps(std::uint64_t index, const std::string& place);
   /// The map of a matrix, 16 numbers by columns. Throws Error where it is projective, with `what`.
   [[nodiscard]] Affine affine_map(const double* by_columns, const char* what, const std::string& place) const;
   /// Whether an accessor has values of its own, not zeros alone.
   bool has_data(std::uint64_t index, const std::string& place) const;
+  /// Sentences on what the format does not allow and is drawn all the same, of what was read so far.
+  void note(std::vector<std::string>& notes) const { remarks_.note(notes); }
 
  private:
   struct View;
   struct Accessor;
+  void read_chunks(std::vector<std::uint8_t>& text);
   View view(std::uint64_t index, const std::string& place);
-  Accessor accessor(std::uint64_t index, const std::string& place);
+  Accessor accessor(std::uint64_t index, GltfUse use, const std::string& place);
+  void check_stride(const View& view, std::uint64_t element, bool of_vertices, const std::string& place) const;
   const std::vector<std::uint8_t>& buffer(std::uint64_t index, const std::string& place);
   template <typename T>
   void elements(const Accessor& a, std::vector<T>& out, const std::string& place);
@@ -63,6 +68,7 @@ class GltfFile : public GltfJson {
             std::size_t components, bool normalized, T* out, const std::string& place) const;
 
   SideFiles side_files_;
+  GltfRemarks remarks_;
   bool version_2_ = true;
   bool is_binary_ = false;
   std::vector<std::uint8_t> binary_;  // the BIN chunk of a .glb

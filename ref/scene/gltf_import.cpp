@@ -190,8 +190,11 @@ void Importer::read_camera(std::uint64_t index, std::uint32_t node, const std::s
   RawCamera camera;
   camera.node = node;
   const std::string type = file_.text(json, "type", place);
-  const Json& view = file_.object(json, type == "orthographic" ? "orthographic" : "perspective", place);
-  camera.perspective = type != "orthographic";
+  camera.perspective = type == "perspective";
+  if (!camera.perspective && type != "orthographic")
+    file_.fail(place, type.empty() ? "has no type"
+                                   : "type '" + one_line(type, 40) + "' is neither perspective nor orthographic");
+  const Json& view = file_.object(json, type.c_str(), place);
   camera.near = file_.number(view, "znear", place).value_or(0);
   camera.far = file_.number(view, "zfar", place).value_or(0);
   if (camera.perspective) {
@@ -199,13 +202,14 @@ void Importer::read_camera(std::uint64_t index, std::uint32_t node, const std::s
     if (!(angle > 0 && angle < portable::kPi)) file_.fail(place, "'yfov' is not between 0 and pi");
     camera.half_height = portable::tan(angle / 2);
     camera.aspect = file_.number(view, "aspectRatio", place).value_or(0);
+    if (file_.has(view, "aspectRatio") && !(camera.aspect > 0)) file_.fail(place, "'aspectRatio' is not above 0");
     if (!(camera.near > 0)) file_.fail(place, "'znear' is not above 0");
   } else {
     camera.half_height = read_half(view, "ymag", place);
     camera.aspect = read_half(view, "xmag", place) / camera.half_height;
     if (camera.near < 0 || !(camera.far > 0)) file_.fail(place, "'znear' is negative, or no 'zfar'");
   }
-  if (camera.far != 0 && camera.far <= camera.near) file_.fail(place, "'zfar' is not beyond 'znear'");
+  if (file_.has(view, "zfar") && !(camera.far > camera.near)) file_.fail(place, "'zfar' is not beyond 'znear'");
   scene_.camera = camera;
 }
 
@@ -220,6 +224,7 @@ void Importer::count_contents() {
 
 void Importer::write_notes() {
   std::vector<std::string>& notes = scene_.notes;
+  file_.note(notes);
   const GltfMeshes::Counts& meshes = meshes_.counts();
   const GltfAnimation::Counts& channels = animation_.counts();
   const auto add = [&notes](std::size_t count, const char* singular, const char* plural, const char* rest) {
@@ -229,12 +234,16 @@ void Importer::write_notes() {
   meshes_.materials().note(notes);
   add(meshes.alpha, "primitive's vertices have", "primitives' vertices have",
       " alpha of their own, which is ignored: the material's is used");
+  add(meshes.bright, "primitive has", "primitives have", " a colour above 1, which is taken as 1");
+  add(meshes.dark, "primitive has", "primitives have", " a colour below 0, which is taken as 0");
   add(meshes.thin, "primitive of points or lines is", "primitives of points or lines are", " ignored");
   add(meshes.bare, "primitive without positions is", "primitives without positions are", " ignored");
   add(skins_.counts().idle, "skin is", "skins are", " ignored: the mesh has no joints");
   add(skins_.counts().weightless, "vertex of a skinned mesh has", "vertices of skinned meshes have",
       " no weights: the first joint moves it");
   add(channels.morphs, "morph animation is", "morph animations are", " ignored: the mesh has no morph targets");
+  add(channels.matrices, "animated node has", "animated nodes have",
+      " a matrix, which is ignored: the animation places it");
   add(instanced_, "node's", "nodes'", " GPU instances are ignored: drawn once");
   add(channels.blinking, "node's visibility is", "nodes' visibilities are",
       " animated, which is ignored: shown or hidden as at rest");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_json.hpp"
 
+#include <array>
 #include <string_view>
 
 #include "kage/error.hpp"
@@ -15,6 +16,9 @@ using Json = nlohmann::json;
 // under a lock of the C library, which fork() may leave locked (child.hpp).
 const Json kNoObject = Json::object();
 const Json kNoArray = Json::array();
+
+/// Where a file says which extensions it uses.
+constexpr std::array kLists{"extensionsUsed", "extensionsRequired"};
 
 /// Arrays below the top level that others refer to by number: an element that nobody has asked for draws nothing.
 bool is_indexed(std::string_view key) { return key == "samplers" || key == "lights"; }
@@ -196,10 +200,17 @@ std::map<std::string, std::size_t> GltfJson::unread() const {
   return found;
 }
 
+bool GltfJson::uses(const char* extension) const {
+  for (const char* list : kLists)
+    for (const Json& e : array(root_, list, "JSON"))
+      if (e.is_string() && e.get_ref<const std::string&>() == extension) return true;
+  return false;
+}
+
 std::set<std::string> GltfJson::extensions() const {
   std::set<std::string> names;
   collect_extensions(root_, names);
-  for (const char* list : {"extensionsUsed", "extensionsRequired"})
+  for (const char* list : kLists)
     for (const Json& e : array(root_, list, "JSON"))
       if (e.is_string()) names.insert(e.get<std::string>());
   return names;

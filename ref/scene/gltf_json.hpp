@@ -64,6 +64,9 @@ class GltfJson {
   /// material that no mesh has, are passed over; so are extras.
   [[nodiscard]] std::map<std::string, std::size_t> unread() const;
 
+  /// Whether the file says that it uses an extension.
+  [[nodiscard]] bool uses(const char* extension) const;
+
   /// Names of all extensions that the file says it uses, or that stand anywhere in it.
   [[nodiscard]] std::set<std::string> extensions() const;
 

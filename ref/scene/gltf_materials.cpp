@@ -2,6 +2,7 @@
 #include "gltf_materials.hpp"
 
 #include <algorithm>
+#include <string_view>
 
 #include "notes.hpp"
 #include "number/counted.hpp"
@@ -14,6 +15,34 @@ using Json = GltfJson::Json;
 const Json& gloss_of(const GltfFile& file, const Json& material, const std::string& here) {
   return file.extension(material, "KHR_materials_pbrSpecularGlossiness", here);
 }
+
+/// References to textures that the file does not have, wherever in the material they stand. What they name is not
+/// drawn, so they do not count as read.
+std::size_t lost_textures(const GltfFile& file, const Json& material) {
+  const std::size_t textures = file.count("textures");
+  const auto is_lost = [textures](const std::string& key, const Json& value) {
+    const std::string_view kind = "Texture";
+    if (key.size() < kind.size() || key.compare(key.size() - kind.size(), kind.size(), kind) != 0) return false;
+    const auto index = value.is_object() ? value.find("index") : value.end();
+    return value.is_object() && index != value.end() &&
+           (!index->is_number() || index->get<double>() < 0 || index->get<double>() >= static_cast<double>(textures));
+  };
+  std::size_t lost = 0;
+  std::vector<const Json*> waiting{&material};
+  while (!waiting.empty()) {
+    const Json& value = *waiting.back();
+    waiting.pop_back();
+    if (!value.is_object()) continue;
+    for (const auto& [key, member] : value.items()) {
+      if (key == "extras") continue;
+      lost += is_lost(key, member) ? 1 : 0;
+      waiting.push_back(&member);
+    }
+  }
+  return lost;
+}
+
+bool is_share(double v) { return v >= 0 && v <= 1; }
 
 }  // namespace
 
@@ -30,13 +59,16 @@ GltfMaterials::Material GltfMaterials::material(const GltfFile& file, const Json
   m.masked = mode == "MASK";
   if (!mode.empty() && mode != "BLEND" && mode != "MASK" && mode != "OPAQUE") m.mode = mode;
   const Json& through = file.extension(json, "KHR_materials_transmission", here);
-  const double transmitted = std::clamp(file.number(through, "transmissionFactor", here).value_or(0), 0.0, 1.0);
+  const double given = file.number(through, "transmissionFactor", here).value_or(0);
+  const double transmitted = std::clamp(given, 0.0, 1.0);
+  m.beyond = !is_share(given) || (mode == "BLEND" && !is_share(factor[3]));
   m.alpha *= 1 - transmitted;
   m.unseen = transmitted > 0 && m.alpha < 0.5 / 255;
   m.double_sided = file.boolean(json, "doubleSided", false, here);
   m.unlit = file.has_extension(json, "KHR_materials_unlit", here);
   read_emission(file, json, m, here);
   read_gloss(file, json, m, here);
+  m.lost_textures = lost_textures(file, json);
   return m;
 }
 
@@ -92,10 +124,17 @@ void GltfMaterials::note(std::vector<std::string>& notes) const {
   };
   add([](const Material& m) { return m.masked; }, "material has", "materials have",
       " an alpha mask, which is ignored: drawn opaque");
+  std::size_t lost = 0;
+  for (const auto& [index, m] : materials_) lost += m.lost_textures;
+  if (lost > 0)
+    notes.push_back(counted(lost, "reference to a texture", "references to textures") +
+                    (lost == 1 ? " that is not in the file is" : " that are not in the file are") + " ignored");
   for (const auto& [index, m] : materials_)
     if (!m.mode.empty())
       notes.push_back("material " + std::to_string(index) + ": alphaMode '" + one_line(m.mode, 40) +
                       "' is unknown, and ignored: drawn opaque");
+  add([](const Material& m) { return m.beyond; }, "material has", "materials have",
+      " an alpha or a transmissionFactor that is not 0 to 1: the nearest that is, is taken");
   add([](const Material& m) { return m.unseen; }, "material lets", "materials let",
       " all light through (transmissionFactor), and cannot be seen");
   add([](const Material& m) { return m.emits; }, "material emits", "materials emit",

@@ -36,8 +36,10 @@ class GltfMaterials {
     bool masked = false;
     bool emits = false;
     bool glossy = false;
-    bool unseen = false;  // all light passes through
-    std::string mode;     // an unknown alphaMode
+    bool unseen = false;            // all light passes through
+    bool beyond = false;            // its alpha or transmissionFactor is not 0 to 1
+    std::string mode;               // an unknown alphaMode
+    std::size_t lost_textures = 0;  // that the file does not have
   };
   static Material material(const GltfFile& file, const GltfJson::Json& json, const std::string& here);
   static void read_emission(const GltfFile& file, const GltfJson::Json& json, Material& m, const std::string& here);

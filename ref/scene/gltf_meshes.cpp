@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -42,13 +43,13 @@ void GltfMeshes::read_primitive(const Json& json, RawMesh& mesh, const std::stri
   if (file_->has_extension(json, kDraco, place) && !file_->has_data(*position, place))
     file_->fail(place, std::string("is compressed by Draco (") + kDraco + "), which is not read");
   RawPrimitive p;
-  p.positions = file_->floats(*position, 3, 3, place).values;
+  p.positions = file_->floats(*position, GltfUse::position, place).values;
   if (const auto normal = file_->integer(attributes, "NORMAL", place)) {
-    p.normals = file_->floats(*normal, 3, 3, place).values;
+    p.normals = file_->floats(*normal, GltfUse::normal, place).values;
     if (p.normals.size() != p.positions.size()) file_->fail(place, "has more or fewer normals than positions");
   }
   if (const auto color = file_->integer(attributes, "COLOR_0", place)) {
-    const GltfFile::Floats c = file_->floats(*color, 3, 4, place);
+    const GltfFile::Floats c = file_->floats(*color, GltfUse::color, place);
     if (c.values.size() / c.components != p.vertex_count())
       file_->fail(place, "has more or fewer colours than positions");
     bool translucent = false;
@@ -64,8 +65,23 @@ void GltfMeshes::read_primitive(const Json& json, RawMesh& mesh, const std::stri
   if (!mesh.primitives.empty() && mesh.primitives[0].targets.size() != p.targets.size())
     file_->fail(place, "has not as many morph targets as the mesh's first primitive");
   materials_.read(*file_, json, p, place);
+  count_range(p);
   read_corners(json, p, place);
   mesh.primitives.push_back(std::move(p));
+}
+
+void GltfMeshes::count_range(const RawPrimitive& p) {
+  const auto look = [](const glm::dvec3& c, bool& bright, bool& dark) {
+    bright = bright || c.x > 1 || c.y > 1 || c.z > 1;
+    dark = dark || c.x < 0 || c.y < 0 || c.z < 0;
+  };
+  bool bright = false;
+  bool dark = false;
+  if (p.colors.empty()) look(p.color, bright, dark);
+  for (std::size_t i = 0; i + 2 < p.colors.size(); i += 3)
+    look(p.color * glm::dvec3(p.colors[i], p.colors[i + 1], p.colors[i + 2]), bright, dark);
+  counts_.bright += bright ? 1 : 0;
+  counts_.dark += dark ? 1 : 0;
 }
 
 /// JOINTS_0 and WEIGHTS_0, and further sets, four to a set, as one.
@@ -77,8 +93,8 @@ void GltfMeshes::read_joints(const Json& attributes, RawPrimitive& p, const std:
     const auto of_weights = file_->integer(attributes, ("WEIGHTS_" + std::to_string(set)).c_str(), place);
     if (!of_joints && !of_weights) break;
     if (!of_joints || !of_weights) file_->fail(place, "has joints without weights, or weights without joints");
-    joints.push_back(file_->indices(*of_joints, place, 4));
-    weights.push_back(file_->floats(*of_weights, 4, 4, place).values);
+    joints.push_back(file_->indices(*of_joints, GltfUse::joints, place));
+    weights.push_back(file_->floats(*of_weights, GltfUse::weights, place).values);
     if (joints.back().size() != 4 * p.vertex_count() || weights.back().size() != 4 * p.vertex_count())
       file_->fail(place, "has more or fewer joints or weights than positions");
     for (const float w : weights.back())
@@ -98,10 +114,11 @@ void GltfMeshes::read_targets(const Json& json, RawPrimitive& p, const std::stri
     const std::string here = place + " target " + std::to_string(t);
     if (!targets[t].is_object()) file_->fail(here, "not an object");
     RawTarget target;
-    for (const auto& [key, to] : {std::pair{"POSITION", &target.positions}, {"NORMAL", &target.normals}}) {
+    for (const auto& [key, use, to] :
+         {std::tuple{"POSITION", GltfUse::position, &target.positions}, {"NORMAL", GltfUse::normal, &target.normals}}) {
       const auto accessor = file_->integer(targets[t], key, here);
       if (!accessor) continue;
-      *to = file_->floats(*accessor, 3, 3, here).values;
+      *to = file_->floats(*accessor, use, here).values;
       if (to->size() != p.positions.size()) file_->fail(here, "has more or fewer values than the primitive positions");
       for (const float v : *to)
         if (!std::isfinite(v)) file_->fail(here, "holds what is not finite");
@@ -128,7 +145,7 @@ void GltfMeshes::read_corners(const Json& json, RawPrimitive& p, const std::stri
   const std::uint64_t mode = file_->integer(json, "mode", place).value_or(4);
   std::vector<std::uint32_t> order;
   if (const auto indices = file_->integer(json, "indices", place)) {
-    order = file_->indices(*indices, place);
+    order = file_->indices(*indices, GltfUse::indices, place);
   } else {
     order.resize(p.vertex_count());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<std::uint32_t>(i);

@@ -18,9 +18,11 @@ class GltfMeshes {
  public:
   /// What is not drawn as the file has it, by primitives.
   struct Counts {
-    std::size_t thin = 0;   ///< points and lines
-    std::size_t bare = 0;   ///< without positions
-    std::size_t alpha = 0;  ///< by the colours of their vertices
+    std::size_t thin = 0;    ///< points and lines
+    std::size_t bare = 0;    ///< without positions
+    std::size_t alpha = 0;   ///< by the colours of their vertices
+    std::size_t bright = 0;  ///< with a colour above 1, the material's times the vertex's
+    std::size_t dark = 0;    ///< with one below 0
   };
 
   GltfMeshes(GltfFile& file, RawScene& scene) : file_(&file), scene_(&scene) {}
@@ -43,6 +45,7 @@ class GltfMeshes {
   void read_primitive(const Json& json, RawMesh& mesh, const std::string& place);
   void read_joints(const Json& attributes, RawPrimitive& primitive, const std::string& place);
   void read_targets(const Json& json, RawPrimitive& primitive, const std::string& place);
+  void count_range(const RawPrimitive& primitive);
   void read_corners(const Json& json, RawPrimitive& primitive, const std::string& place);
 
   GltfFile* file_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys that nobody knows are named wherever they stand; of what changes how a triangle looks and whether a node is
-// there, how much is drawn.
+// Keys that nobody knows are named wherever they stand; what the format does not allow is told or refused; of what
+// changes how a triangle looks and whether a node is there, how much is drawn.
 #include "gltf_outcome.hpp"
 #include "test/support/catch.hpp"
 
@@ -113,4 +113,185 @@ TEST_CASE("hidden nodes are neither drawn nor shine, their children likewise; a 
   hide(doc["nodes"][0]);  // the child says that it is visible, which does not count
   const std::string file = dir.write("x.gltf", doc.dump());
   CHECK(test::refusal(file) == file + ": nodes: all that have a mesh are hidden (KHR_node_visibility)");
+}
+
+namespace {
+
+struct Defect {
+  const char* said;  // the end of the refusal, or a note
+  Changes changes;
+  bool drawn = false;
+};
+
+/// An accessor 4 of the given members, as the first primitive's attribute.
+Changes attribute(const char* key, const char* accessor, const Changes& more = {}) {
+  Changes changes{{"/accessors/4", accessor}, {key, "4"}};
+  changes.insert(changes.end(), more.begin(), more.end());
+  return changes;
+}
+
+const char* const kColor = "/meshes/0/primitives/0/attributes/COLOR_0";
+const char* const kNormal = "/meshes/0/primitives/0/attributes/NORMAL";
+const char* const kPosition = "/meshes/0/primitives/0/attributes/POSITION";
+
+void check_defects(const std::vector<Defect>& defects) {
+  for (const Defect& d : defects) {
+    const Outcome got = test::outcome(test::changed(d.changes));
+    INFO(d.said << ": " << got.drawn.substr(0, 200));
+    for (const std::string& note : got.notes) INFO(note);
+    CHECK((got.drawn.rfind("refused", 0) != 0) == d.drawn);
+    if (d.drawn) {
+      CHECK(got.says(d.said));
+      CHECK(got.notes.size() == 1);
+    } else {
+      CHECK(got.drawn.find(d.said) != std::string::npos);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("strides: a multiple of 4 that is as long as an element, of vertices alone") {
+  const char* const kStride = "/bufferViews/0/byteStride";
+  check_defects({
+      {"bufferView 0: byteStride 8 is less than the 12 bytes of an element of accessor 0", {{kStride, "8"}}},
+      {"bufferView 0: byteStride 2 is not a multiple of 4 from 4 to 252", {{kStride, "2"}}},
+      {"bufferView 0: byteStride 253 is not a multiple of 4 from 4 to 252", {{kStride, "253"}}},
+      {"bufferView 0: byteStride 256 is not a multiple of 4 from 4 to 252", {{kStride, "256"}}},
+      {"bufferView 0 has byteStride 0, which is taken as none", {{kStride, "0"}}, true},
+      {"bufferView 3: byteStride 4: the elements of accessor 3 are no vertices, and have no gaps",
+       {{"/bufferViews/3/byteStride", "4"}, {"/accessors/3/count", "2"}}},
+      {"bufferView 1: byteStride 8: the elements of accessor 1 are no vertices, and have no gaps",
+       {{"/bufferViews/1/byteStride", "8"}, {"/accessors/1/count", "1"}}},
+      {"bufferView 3: byteStride 8: the elements of accessor 0 are no vertices, and have no gaps",
+       {{"/bufferViews/3/byteStride", "8"},
+        {"/accessors/0/sparse",
+         "{\"count\": 1, \"indices\": {\"bufferView\": 3, \"componentType\": 5123}, \"values\": {\"bufferView\": 2}}"},
+        {"/meshes/0/primitives/0", "{\"attributes\": {\"POSITION\": 0}}"}}},
+  });
+  // As long as an element it changes nothing.
+  const Outcome same = test::outcome(test::changed({{"/bufferViews/1/byteStride", "4"}, {kStride, "12"}}));
+  CHECK(same.notes.empty());
+  CHECK(same.drawn == test::outcome(test::base()).drawn);
+}
+
+TEST_CASE("types of numbers that the format does not have for what they are") {
+  // Each float's second half is a number.
+  const char* const kShorts =
+      R"({"bufferView": 0, "byteOffset": 2, "componentType": 5122, "count": 3, "type": "VEC3"})";
+  const char* const kBytes = R"({"bufferView": 2, "componentType": 5121, "count": 3, "type": "VEC3"})";
+  check_defects({
+      {"accessor 4 (COLOR_0) has whole numbers without 'normalized', which are taken as normalized",
+       attribute(kColor, kBytes), true},
+      {"accessor 4 (COLOR_0) has whole numbers without 'normalized', which are taken as normalized",
+       attribute(kColor, R"({"bufferView": 2, "componentType": 5123, "count": 3, "type": "VEC3"})"), true},
+      {"mesh 0 primitive 0: accessor 4 has component type 5120 (byte), which COLOR_0 cannot have",
+       attribute(kColor,
+                 R"({"bufferView": 2, "componentType": 5120, "count": 3, "type": "VEC4", "normalized": true})")},
+      {"mesh 0 primitive 0: accessor 4 has component type 5125 (unsigned int), which COLOR_0 cannot have",
+       attribute(kColor, R"({"componentType": 5125, "count": 3, "type": "VEC3", "normalized": true})")},
+      {"accessor 4 (COLOR_0) has 'normalized', which is ignored: its numbers are floats",
+       attribute(kColor, R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "normalized": true})"),
+       true},
+      {"accessor 4 (POSITION) has whole numbers without KHR_mesh_quantization, which are taken as if the file named it",
+       attribute(kPosition, kShorts, {{"/bufferViews/0/byteStride", "12"}}), true},
+      {"accessor 4 has component type 5125 (unsigned int), which POSITION cannot have",
+       attribute(kPosition, R"({"bufferView": 0, "componentType": 5125, "count": 3, "type": "VEC3"})")},
+      {"accessor 4 (NORMAL) has whole numbers without 'normalized', which are taken as normalized",
+       attribute(kNormal, R"({"bufferView": 2, "byteOffset": 12, "componentType": 5120, "count": 3, "type": "VEC3"})",
+                 {{"/extensionsUsed/1", "\"KHR_mesh_quantization\""}}),
+       true},
+      {"accessor 4 has component type 5121 (unsigned byte), which NORMAL cannot have",
+       attribute(kNormal, R"({"bufferView": 0, "componentType": 5121, "count": 3, "type": "VEC3"})")},
+      {"accessor 3 (indices) has 'normalized', which is ignored: they are numbers of things",
+       {{"/accessors/3/normalized", "true"}},
+       true},
+      {"animation 0 channel 0: accessor 2 has component type 5122 (short), which an animation's vectors cannot have",
+       {{"/accessors/2/componentType", "5122"}}},
+      {"animation 0 channel 0: accessor 1 has component type 5123 (unsigned short), which an animation's times cannot",
+       {{"/accessors/1/componentType", "5123"}}},
+      {"accessor 4 (an animation's rotations) has whole numbers without 'normalized'",
+       {{"/accessors/4", R"({"bufferView": 2, "byteOffset": 14, "componentType": 5121, "count": 2, "type": "VEC4"})"},
+        {"/animations/0/samplers/0/output", "4"},
+        {"/animations/0/channels/0/target/path", "\"rotation\""}},
+       true},
+  });
+  // What is taken as normalized is drawn as what is.
+  std::string other = kBytes;
+  other.insert(1, "\"normalized\": true, ");
+  const Outcome normalized = test::outcome(test::changed(attribute(kColor, other.c_str())));
+  CHECK(normalized.notes.empty());
+  CHECK(normalized.drawn == test::outcome(test::changed(attribute(kColor, kBytes))).drawn);
+  // With the extension whole numbers are positions like others.
+  const Changes quantized{{"/bufferViews/0/byteStride", "12"}, {"/extensionsUsed/1", "\"KHR_mesh_quantization\""}};
+  CHECK(test::outcome(test::changed(attribute(kPosition, kShorts, quantized))).notes.empty());
+}
+
+TEST_CASE("cameras that are none are refused") {
+  check_defects({
+      {"camera 0: type 'fisheye' is neither perspective nor orthographic", {{"/cameras/0/type", "\"fisheye\""}}},
+      {"camera 0: has no type", {{"/cameras/0", "{\"perspective\": {\"yfov\": 1, \"znear\": 0.5}}"}}},
+      {"camera 0: 'aspectRatio' is not above 0", {{"/cameras/0/perspective/aspectRatio", "0"}}},
+      {"camera 0: 'aspectRatio' is not above 0", {{"/cameras/0/perspective/aspectRatio", "-2"}}},
+      {"camera 0: 'zfar' is not beyond 'znear'", {{"/cameras/0/perspective/zfar", "0"}}},
+      {"camera 0: 'zfar' is not beyond 'znear'", {{"/cameras/0/perspective/zfar", "-1"}}},
+      {"camera 0: 'zfar' is not beyond 'znear'", {{"/cameras/0/perspective/zfar", "0.5"}}},
+  });
+}
+
+TEST_CASE("animations of what is not there, of one thing twice, of a node with a matrix") {
+  const char* const kSame = R"({"sampler": 0, "target": {"node": 0, "path": "translation"}})";
+  const char* const kOther = R"({"sampler": 0, "target": {"node": 0, "path": "scale"}})";
+  check_defects({
+      {"animation 0 channel 0: asks for number 77 of 4 nodes", {{"/animations/0/channels/0/target/node", "77"}}},
+      {"animation 0 channel 1: moves node 0 (translation), as animation 0 channel 0 does",
+       {{"/animations/0/channels/1", kSame}}},
+      {"1 animated node has a matrix, which is ignored: the animation places it",
+       {{"/nodes/0", "{\"mesh\": 0, \"matrix\": [2,0,0,0, 0,2,0,0, 0,0,2,0, 0,0,0,1], \"children\": [3]}"},
+        {"/animations/0/channels/1", kOther}},
+       true},
+  });
+  CHECK(test::outcome(test::changed({{"/animations/0/channels/1", kOther}})).notes.empty());
+}
+
+TEST_CASE("colours and alpha outside of 0 to 1, textures that are not there") {
+  const char* const kFactor = "/materials/0/pbrMetallicRoughness/baseColorFactor";
+  check_defects({
+      {"1 primitive has a colour above 1, which is taken as 1", {{kFactor, "[0, 0.5, 5, 1]"}}, true},
+      {"1 primitive has a colour below 0, which is taken as 0", {{kFactor, "[-1, 0.5, 1, 1]"}}, true},
+      {"1 primitive has a colour above 1, which is taken as 1",
+       {{kFactor, "[4, 4, 4, 1]"}, {kColor, "0"}},  // 4 times 1 at a vertex
+       true},
+      {"1 material has an alpha or a transmissionFactor that is not 0 to 1",
+       {{kFactor, "[0, 0.5, 1, 5]"}, {"/materials/0/alphaMode", "\"BLEND\""}},
+       true},
+      {"2 references to textures that are not in the file are ignored",
+       {{"/materials/0/normalTexture", "{\"index\": 3}"},
+        {"/materials/0/pbrMetallicRoughness/baseColorTexture", "{\"index\": 0}"}},
+       true},
+  });
+  // A colour above 1 that a vertex takes below is none that is drawn.
+  CHECK(test::outcome(test::changed({{kFactor, "[1.5, 1.5, 1.5, 1]"},
+                                     {"/accessors/4", R"({"componentType": 5126, "count": 3, "type": "VEC3"})"},
+                                     {kColor, "4"}}))
+            .notes.empty());
+}
+
+TEST_CASE("a binary file's length: chunks that reach beyond it are refused, what lies behind it is told") {
+  const auto word = [](std::size_t v) {
+    return test::bytes_of(std::vector<std::uint32_t>{static_cast<std::uint32_t>(v)});
+  };
+  const TempDirectory dir;
+  Json doc = test::base();
+  std::string json = doc.dump();
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  const std::size_t whole = 20 + json.size();
+  const auto file = [&](std::size_t says, const std::string& behind) {
+    return dir.write("x.glb", "glTF" + word(2) + word(says) + word(json.size()) + "JSON" + json + behind);
+  };
+  const std::string short_one = file(whole - 4, "");
+  CHECK(test::refusal(short_one) == short_one + ": header: says " + std::to_string(whole - 4) +
+                                        " bytes, its chunks end at " + std::to_string(whole));
+  CHECK(Scene::load(file(whole, "")).notes().empty());
+  CHECK(test::has_note(Scene::load(file(whole, "abcd")), "4 bytes behind the length that the header says are ignored"));
 }
