@@ -3,8 +3,11 @@
 // Ear clipping, seen along the polygon's mean normal. Convex polygons, nearly all there are, become fans.
 #include "polygon.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "number/counted.hpp"
 #include "transform.hpp"
 
 namespace kage::scene {
@@ -72,7 +75,107 @@ bool is_convex(const std::vector<glm::dvec3>& p) {
   return true;
 }
 
+constexpr double kCrossingTolerance = 1e-6;               // of the largest coordinate
+constexpr std::size_t kMostPairs = std::size_t{1} << 24;  // of edges that are held against each other
+
+/// A polygon as its mean normal sees it.
+class Outline {
+ public:
+  explicit Outline(const std::vector<glm::dvec3>& p) {
+    double largest = 0;
+    for (const glm::dvec3& v : p) largest = std::max({largest, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    tolerance_ = kCrossingTolerance * largest;
+    const glm::dvec3 n = normal(p);
+    const glm::dvec3 u = unit(cross(n, std::abs(n.x) < 0.7 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0}), {0, 0, 0});
+    const glm::dvec3 v = cross(n, u);
+    for (const glm::dvec3& at : p) p_.push_back({dot(u, at - p[0]), dot(v, at - p[0])});
+  }
+
+  /// Whether two edges cross that share no corner. They are held against each other where they lie side by side.
+  [[nodiscard]] bool crosses() const {
+    std::vector<std::size_t> order(p_.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    const auto low = [this](std::size_t e) { return std::min(from(e).x, to(e).x); };
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return low(a) != low(b) ? low(a) < low(b) : a < b; });
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      const double high = std::max(from(order[i]).x, to(order[i]).x);
+      for (std::size_t k = i + 1; k < order.size() && low(order[k]) <= high; ++k) {
+        if (++pairs > kMostPairs) return false;
+        if (cross_each_other(order[i], order[k])) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Of a polygon that turns to one side at all its corners: whether it goes round more than once. Each time round its
+  /// edges lead twice from one side to the other.
+  [[nodiscard]] bool winds() const {
+    int turns = 0;
+    double last = 0;
+    for (std::size_t i = 0; i < 2 * p_.size(); ++i) {  // the first time round finds `last`
+      const double step = to(i % p_.size()).x - from(i % p_.size()).x;
+      if (step == 0) continue;
+      if (i >= p_.size() && (step > 0) != (last > 0)) ++turns;
+      last = step;
+    }
+    return turns > 2;
+  }
+
+ private:
+  struct Place {
+    double x, y;
+  };
+
+  /// Of length 1. A figure of eight may have no area; then it is that of the widest corner at its first place.
+  static glm::dvec3 normal(const std::vector<glm::dvec3>& p) {
+    const auto square = [](const glm::dvec3& v) { return dot(v, v); };
+    glm::dvec3 far{0, 0, 0};
+    for (const glm::dvec3& at : p)
+      if (square(at - p[0]) > square(far)) far = at - p[0];
+    const glm::dvec3 mean = area_vector(p);
+    if (square(mean) > kCrossingTolerance * square(far) * square(far)) return unit(mean, {0, 0, 1});
+    glm::dvec3 widest{0, 0, 0};
+    for (const glm::dvec3& at : p)
+      if (const glm::dvec3 n = cross(far, at - p[0]); square(n) > square(widest)) widest = n;
+    return unit(widest, {0, 0, 1});
+  }
+
+  [[nodiscard]] const Place& from(std::size_t edge) const { return p_[edge]; }
+  [[nodiscard]] const Place& to(std::size_t edge) const { return p_[edge + 1 == p_.size() ? 0 : edge + 1]; }
+
+  /// 1 and -1 where a place lies to the left and right of an edge's line, 0 where it is too near to tell.
+  [[nodiscard]] int side(std::size_t edge, const Place& at) const {
+    const double x = to(edge).x - from(edge).x;
+    const double y = to(edge).y - from(edge).y;
+    const double area = x * (at.y - from(edge).y) - y * (at.x - from(edge).x);
+    const double least = tolerance_ * std::sqrt(x * x + y * y);
+    return area > least ? 1 : area < -least ? -1 : 0;
+  }
+
+  [[nodiscard]] bool cross_each_other(std::size_t a, std::size_t b) const {
+    return side(a, from(b)) * side(a, to(b)) < 0 && side(b, from(a)) * side(b, to(a)) < 0;
+  }
+
+  std::vector<Place> p_;
+  double tolerance_ = 0;
+};
+
 }  // namespace
+
+bool crosses_itself(const std::vector<glm::dvec3>& corner) {
+  if (corner.size() < 4) return false;
+  if (!is_convex(corner)) return Outline(corner).crosses();
+  return corner.size() > 4 && Outline(corner).winds();  // four corners are too few to wind twice
+}
+
+void note_crossing(std::size_t count, std::vector<std::string>& notes) {
+  if (count > 0)
+    notes.push_back(counted(count, "face crosses itself, and is", "faces cross themselves, and are") +
+                    (count == 1 ? " drawn as some triangles between its corners"
+                                : " drawn as some triangles between their corners"));
+}
 
 std::vector<std::array<std::uint32_t, 3>> triangulate(const std::vector<glm::dvec3>& corner) {
   // A line that winds more than once would pass as convex from 5 corners on, and its fan be as good as any.

@@ -61,6 +61,7 @@ class Reader {
   NodeNames node_of_;
   std::vector<const aiNode*> nodes_;
   std::size_t thin_faces_ = 0;
+  std::size_t crossing_ = 0;      // faces
   std::size_t alpha_meshes_ = 0;  // by the colours of their vertices
   std::size_t skins_ = 0;
   std::size_t morphs_ = 0;
@@ -149,6 +150,7 @@ void Reader::read_faces(const aiMesh& mesh, RawPrimitive& p) {
                     " names vertex " + std::to_string(face.mIndices[i]) + " of " + std::to_string(mesh.mNumVertices));
       corners.push_back(vec3(mesh.mVertices[face.mIndices[i]]));
     }
+    crossing_ += crosses_itself(corners) ? 1 : 0;
     for (const auto& t : triangulate(corners)) {
       for (const std::uint32_t k : t) p.corners.push_back(face.mIndices[k]);
       p.faces.push_back(p.face_count);
@@ -172,6 +174,7 @@ void Reader::write_notes() {
   add(alpha_meshes_, "mesh's vertices have", "meshes' vertices have",
       " alpha of their own, which is ignored: the material's is used");
   add(thin_faces_, "point or line is", "points or lines are", " ignored");
+  note_crossing(crossing_, out_.notes);
   add(skins_, "skin is", "skins are", " ignored: drawn in the rest pose");
   add(morphs_, "mesh has", "meshes have", " morph targets, which are ignored");
   add(cameras_ > 1 ? cameras_ - 1 : 0, "camera is", "cameras are", " ignored: the first is used");

@@ -153,15 +153,19 @@ MtlMaterial MtlReader::material(const Known& known) {
     return glm::dvec3(std::max(v.x, 0.0), std::max(v.y, 0.0), std::max(v.z, 0.0));
   };
   MtlMaterial m;
-  if (known.diffuse) m.color = *known.diffuse;
+  const glm::dvec3 diffuse = known.diffuse.value_or(m.color);
   const glm::dvec3 light = positive(known.emission);
-  m.unlit = light != glm::dvec3(0) && m.color == glm::dvec3(0);
+  m.unlit = light != glm::dvec3(0) && positive(diffuse) == glm::dvec3(0);
   m.emits = light != glm::dvec3(0) && !m.unlit;
-  if (m.unlit) m.color = light;
+  const glm::dvec3 color = positive(m.unlit ? light : diffuse);
+  m.color = {std::min(color.x, 1.0), std::min(color.y, 1.0), std::min(color.z, 1.0)};
+  m.bright = m.color != color;
+  m.dark = positive(diffuse) != diffuse || light != known.emission.value_or(light);
   // Several programs write 0 and mean that nothing is said: what is drawn at all is not wholly invisible.
   const double opacity = known.dissolve ? *known.dissolve : 1 - known.transparency.value_or(0);
   if (opacity > 0 && opacity < 1) m.alpha = opacity;
   m.invisible = !(opacity > 0);
+  m.dense = opacity > 1;
   const bool shines = positive(known.specular) != glm::dvec3(0) || known.gloss > 0 || known.illumination >= 3;
   m.glossy = shines && !m.unlit;
   m.unshaded = known.illumination == 0 && !m.unlit;

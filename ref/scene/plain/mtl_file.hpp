@@ -24,6 +24,9 @@ struct MtlMaterial {
   bool glossy = false;      ///< by Ks, illum from 3 on, or the words of physically based materials
   bool unshaded = false;    ///< illum 0
   bool invisible = false;   ///< d 0, which several programs write and do not mean
+  bool bright = false;      ///< a channel of `color` was above 1
+  bool dark = false;        ///< one was below 0
+  bool dense = false;       ///< its opacity was above 1
   std::size_t textures = 0;
 };
 

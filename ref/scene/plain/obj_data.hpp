@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/plain/obj_libraries.hpp"
+#include "scene/plain/plain_mesh.hpp"
 #include "scene/raw.hpp"
 
 namespace kage::scene {
@@ -55,6 +56,6 @@ struct ObjData {
 };
 
 /// Appends nodes, meshes and materials to the scene. Returns how many corners name a normal that is not there.
-std::size_t build_obj(ObjData data, ObjLibraries& libraries, RawScene& scene);
+std::size_t build_obj(ObjData data, ObjLibraries& libraries, RawScene& scene, FaceCounts& counts);
 
 }  // namespace kage::scene

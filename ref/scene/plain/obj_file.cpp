@@ -68,7 +68,8 @@ class ObjReader {
   std::size_t weights_ = 0;   // vertices with a weight that is not 1
   std::size_t alphas_ = 0;
   std::size_t bright_ = 0;  // vertices whose colour is above 1
-  std::size_t thin_ = 0;
+  std::size_t dark_ = 0;    // below 0
+  FaceCounts counts_;
   std::size_t flat_faces_ = 0;  // without normals, in a smoothing group
   std::size_t free_form_ = 0;   // statements
   std::size_t free_form_line_ = 0;
@@ -79,7 +80,7 @@ RawScene ObjReader::run() {
   while (in_.next_statement()) read_statement();
   check_numbers();
   libraries_.fall_back(scene_.notes);
-  missing_normals_ = build_obj(std::move(data_), libraries_, scene_);
+  missing_normals_ = build_obj(std::move(data_), libraries_, scene_, counts_);
   write_notes();
   return std::move(scene_);
 }
@@ -127,8 +128,9 @@ void ObjReader::read_vertex() {
   if (count < 6) return;
   alphas_ += count == 7 && v[6] < 1 ? 1 : 0;
   bright_ += std::max({v[3], v[4], v[5]}) > 1 ? 1 : 0;
+  dark_ += std::min({v[3], v[4], v[5]}) < 0 ? 1 : 0;
   data_.colors.resize(data_.positions.size() - 3, std::numeric_limits<float>::quiet_NaN());
-  data_.colors.insert(data_.colors.end(), v.begin() + 3, v.begin() + 6);
+  for (std::size_t i = 3; i < 6; ++i) data_.colors.push_back(std::clamp(v[i], 0.0F, 1.0F));
 }
 
 void ObjReader::read_normal() {
@@ -144,9 +146,9 @@ void ObjReader::read_thin() {
   const bool points = in_.keyword() == "p";
   for (std::string_view word = in_.word(); !word.empty(); word = in_.word()) {
     (void)read_corner(word, points ? 1 : 2);
-    thin_ += points ? 1 : 0;
+    counts_.thin += points ? 1 : 0;
   }
-  thin_ += points ? 0 : 1;
+  counts_.thin += points ? 0 : 1;
 }
 
 void ObjReader::read_face() {
@@ -158,7 +160,7 @@ void ObjReader::read_face() {
   }
   if (data_.corners.size() < first + 3) {
     data_.corners.resize(first);
-    ++thin_;
+    ++counts_.thin;
     return;
   }
   if (data_.corners.size() >= kObjNone) in_.fail("there are too many faces");
@@ -229,11 +231,12 @@ void ObjReader::write_notes() {
   add(weights_, "vertex has", "vertices have",
       " a weight (w) that is not 1, which concerns curves alone and is ignored");
   add(bright_, "vertex has", "vertices have", " a colour above 1, which is taken as 1");
+  add(dark_, "vertex has", "vertices have", " a colour below 0, which is taken as 0");
   note_alpha(alphas_, notes);
   add(missing_normals_, "corner names", "corners name", " a normal that is not there: the face's is taken");
   add(flat_faces_, "face of a smoothing group has", "faces of smoothing groups have",
       " no normals, and no smooth shading");
-  note_thin(thin_, notes);
+  note_faces(counts_, notes);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace {
 
 class ObjBuilder {
  public:
-  ObjBuilder(ObjData data, ObjLibraries& libraries, RawScene& scene)
-      : data_(std::move(data)), libraries_(libraries), scene_(scene) {}
+  ObjBuilder(ObjData data, ObjLibraries& libraries, RawScene& scene, FaceCounts& counts)
+      : data_(std::move(data)), libraries_(libraries), scene_(scene), counts_(counts) {}
 
   std::size_t run();
 
@@ -42,6 +42,7 @@ class ObjBuilder {
   ObjData data_;
   ObjLibraries& libraries_;
   RawScene& scene_;
+  FaceCounts& counts_;
   std::vector<const MtlMaterial*> looks_;  // of each material; nullptr for those that are not there, or not drawn
   bool bare_ = false;                      // a face has no material
   std::vector<Last> last_;
@@ -61,7 +62,7 @@ std::size_t ObjBuilder::run() {
     RawPrimitive& p = primitive_for(face, run);
     vertices.clear();
     for (; at < face.end; ++at) vertices.push_back(vertex_of(data_.corners[at], run, p));
-    (void)append_face(p, vertices);
+    append_face(p, vertices, counts_);
   }
   for (RawMesh& mesh : scene_.meshes) finish(mesh);
   count_materials();
@@ -152,6 +153,9 @@ void ObjBuilder::count_materials() const {
   std::size_t emitting = 0;
   std::size_t glossy = 0;
   std::size_t unshaded = 0;
+  std::size_t bright = 0;
+  std::size_t dark = 0;
+  std::size_t dense = 0;
   c.materials = bare_ ? 1 : 0;
   for (const MtlMaterial* const m : looks_) {
     if (m == nullptr) continue;
@@ -163,10 +167,16 @@ void ObjBuilder::count_materials() const {
     emitting += m->emits ? 1 : 0;
     glossy += m->glossy ? 1 : 0;
     unshaded += m->unshaded ? 1 : 0;
+    bright += m->bright ? 1 : 0;
+    dark += m->dark ? 1 : 0;
+    dense += m->dense ? 1 : 0;
   }
   c.single_sided = c.materials;
   libraries_.note_missing(scene_.notes);
   note(textures, "texture is", "textures are", " ignored");
+  note(bright, "material has", "materials have", " a colour above 1, which is taken as 1");
+  note(dark, "material has", "materials have", " a colour below 0, which is taken as 0");
+  note(dense, "material has", "materials have", " an opacity above 1, which is taken as 1");
   note(invisible, "material has", "materials have", " opacity 0, which is ignored: drawn opaque");
   note(emitting, "material emits", "materials emit", " light, which is ignored: its diffuse colour is not black");
   note(glossy, "material is", "materials are", " glossy, which is ignored: drawn matt");
@@ -175,8 +185,8 @@ void ObjBuilder::count_materials() const {
 
 }  // namespace
 
-std::size_t build_obj(ObjData data, ObjLibraries& libraries, RawScene& scene) {
-  return ObjBuilder(std::move(data), libraries, scene).run();
+std::size_t build_obj(ObjData data, ObjLibraries& libraries, RawScene& scene, FaceCounts& counts) {
+  return ObjBuilder(std::move(data), libraries, scene, counts).run();
 }
 
 }  // namespace kage::scene

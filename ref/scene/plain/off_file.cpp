@@ -32,8 +32,8 @@ class OffReader {
     for (std::uint32_t i = 0; i < vertices_; ++i) read_vertex(i);
     for (std::uint32_t i = 0; i < faces_; ++i) read_face(i);
     finish_colors();
-    const std::size_t thin = append(mesh_, scene_);
-    write_notes(thin);
+    append(mesh_, scene_, counts_);
+    write_notes();
     return std::move(scene_);
   }
 
@@ -53,7 +53,7 @@ class OffReader {
   void read_face(std::uint32_t number);
   Color read_color(float& largest_whole);
   void finish_colors();
-  void write_notes(std::size_t thin);
+  void write_notes();
 
   TextLines in_;
   std::string_view left_;  // of the line, without its comment
@@ -71,6 +71,8 @@ class OffReader {
   std::size_t mapped_ = 0;  // colours that are a place in a list which the file does not have
   std::size_t alphas_ = 0;
   std::size_t bright_ = 0;
+  std::size_t dark_ = 0;
+  FaceCounts counts_;
 };
 
 /// The next line that has more than blanks and a comment. False at the end.
@@ -173,11 +175,14 @@ void OffReader::finish_colors() {
   const auto push = [this](const Color& color, float largest_whole, std::vector<float>& to) {
     const float full = color.whole && largest_whole > 1 ? 255.0F : 1.0F;
     float most = 0;
+    float least = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       to.push_back(color.given ? color.rgba[i] / full : static_cast<float>(mesh_.color));
       most = std::max(most, to.back());
+      least = std::min(least, to.back());
     }
     bright_ += most > 1 ? 1 : 0;
+    dark_ += least < 0 ? 1 : 0;
     alphas_ += color.given && color.rgba[3] < full ? 1 : 0;
   };
   for (const Color& color : vertex_colors_) push(color, vertex_whole_, mesh_.colors);
@@ -189,14 +194,14 @@ void OffReader::finish_colors() {
   for (const Color& color : face_colors_) push(color, face_whole_, mesh_.face_colors);
 }
 
-void OffReader::write_notes(std::size_t thin) {
+void OffReader::write_notes() {
   std::vector<std::string>& notes = scene_.notes;
   if (mapped_ > 0)
     notes.push_back(counted(mapped_, "face has", "faces have") +
                     " the number of a colour in a list that is not in the file: drawn grey");
-  if (bright_ > 0) notes.push_back(counted(bright_, "colour is", "colours are") + " above 1, and taken as 1");
+  note_range(bright_, dark_, notes);
   note_alpha(alphas_, notes);
-  note_thin(thin, notes);
+  note_faces(counts_, notes);
   if (next_line())
     notes.push_back(fmt::format("what stands behind the last face, from line {} on, is ignored", in_.at()));
 }

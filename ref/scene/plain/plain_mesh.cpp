@@ -33,35 +33,35 @@ PlainMesh apart(const PlainMesh& mesh) {
 
 }  // namespace
 
-bool append_face(RawPrimitive& p, std::span<const std::uint32_t> vertices) {
-  if (vertices.size() < 3) return false;
+void append_face(RawPrimitive& p, std::span<const std::uint32_t> vertices, FaceCounts& counts) {
+  counts.thin += vertices.size() < 3 ? 1 : 0;
+  if (vertices.size() < 3) return;
   if (vertices.size() == 3) {
     p.corners.insert(p.corners.end(), vertices.begin(), vertices.end());
     p.faces.push_back(p.face_count++);
-    return true;
+    return;
   }
   std::vector<glm::dvec3> corners;
   for (const std::size_t v : vertices)
     corners.emplace_back(p.positions[3 * v], p.positions[3 * v + 1], p.positions[3 * v + 2]);
+  counts.crossing += crosses_itself(corners) ? 1 : 0;
   for (const auto& triangle : triangulate(corners)) {
     for (const std::uint32_t k : triangle) p.corners.push_back(vertices[k]);
     p.faces.push_back(p.face_count);
   }
   ++p.face_count;
-  return true;
 }
 
-std::size_t append(const PlainMesh& mesh, RawScene& scene) {
-  if (!mesh.face_colors.empty()) return append(apart(mesh), scene);
+void append(const PlainMesh& mesh, RawScene& scene, FaceCounts& counts) {
+  if (!mesh.face_colors.empty()) return append(apart(mesh), scene, counts);
   RawPrimitive p;
   p.color = mesh.colors.empty() ? glm::dvec3(mesh.color) : glm::dvec3(1);
   p.double_sided = mesh.double_sided;
   p.positions = mesh.positions;
   p.normals = mesh.normals;
   p.colors = mesh.colors;
-  std::size_t thin = 0;
   for (std::size_t face = 0, first = 0; face < mesh.face_count(); first = mesh.ends[face++])
-    thin += append_face(p, std::span(mesh.corners).subspan(first, mesh.ends[face] - first)) ? 0 : 1;
+    append_face(p, std::span(mesh.corners).subspan(first, mesh.ends[face] - first), counts);
   RawNode node;
   node.name = mesh.name;
   node.mesh = static_cast<std::int32_t>(scene.meshes.size());
@@ -71,11 +71,16 @@ std::size_t append(const PlainMesh& mesh, RawScene& scene) {
   c.materials = 1;
   c.says_sides = mesh.double_sided;
   c.single_sided = mesh.double_sided ? 0 : 1;
-  return thin;
 }
 
-void note_thin(std::size_t count, std::vector<std::string>& notes) {
-  if (count > 0) notes.push_back(counted(count, "point or line is", "points or lines are") + " ignored");
+void note_faces(const FaceCounts& counts, std::vector<std::string>& notes) {
+  if (counts.thin > 0) notes.push_back(counted(counts.thin, "point or line is", "points or lines are") + " ignored");
+  note_crossing(counts.crossing, notes);
+}
+
+void note_range(std::size_t bright, std::size_t dark, std::vector<std::string>& notes) {
+  if (bright > 0) notes.push_back(counted(bright, "colour is", "colours are") + " above 1, and taken as 1");
+  if (dark > 0) notes.push_back(counted(dark, "colour is", "colours are") + " below 0, and taken as 0");
 }
 
 void note_alpha(std::size_t colors, std::vector<std::string>& notes) {

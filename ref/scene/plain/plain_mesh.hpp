@@ -18,9 +18,15 @@ namespace kage::scene {
 /// The colour of what has none in OBJ and OFF, in each channel. In PLY and STL it is white.
 inline constexpr double kGrey = 0.6;
 
-/// Appends a face of the file to a primitive, cut into triangles. False, and nothing happens, where it has less than
+/// Faces that are not drawn as the file has them.
+struct FaceCounts {
+  std::size_t thin = 0;      ///< points and lines, which are not drawn
+  std::size_t crossing = 0;  ///< whose outline crosses itself
+};
+
+/// Appends a face of the file to a primitive, cut into triangles. Nothing but the count happens where it has less than
 /// three corners. `vertices` are of the primitive.
-bool append_face(RawPrimitive& p, std::span<const std::uint32_t> vertices);
+void append_face(RawPrimitive& p, std::span<const std::uint32_t> vertices, FaceCounts& counts);
 
 /// Vertices, and faces of any number of corners.
 struct PlainMesh {
@@ -39,11 +45,13 @@ struct PlainMesh {
 };
 
 /// Appends a node with the mesh to the scene, and counts its material. Colours of faces count, where there are some,
-/// not those of vertices. Returns how many faces are points or lines, which are not drawn.
-std::size_t append(const PlainMesh& mesh, RawScene& scene);
+/// not those of vertices.
+void append(const PlainMesh& mesh, RawScene& scene, FaceCounts& counts);
 
 /// The sentences that readers of plain formats share.
-void note_thin(std::size_t count, std::vector<std::string>& notes);
+void note_faces(const FaceCounts& counts, std::vector<std::string>& notes);
+/// `bright` colours have a channel above 1, `dark` ones one below 0.
+void note_range(std::size_t bright, std::size_t dark, std::vector<std::string>& notes);
 void note_alpha(std::size_t colors, std::vector<std::string>& notes);
 
 }  // namespace kage::scene

@@ -107,9 +107,10 @@ class PlyReader {
   std::uint64_t vertices_ = 0;
   std::vector<std::int64_t> list_;
   std::vector<std::string> ignored_;  // "element camera", "property quality of element vertex"
-  std::size_t thin_ = 0;
+  FaceCounts counts_;
   std::size_t alphas_ = 0;
   std::size_t bright_ = 0;
+  std::size_t dark_ = 0;
   bool both_colored_ = false;
 };
 
@@ -132,7 +133,7 @@ RawScene PlyReader::run() {
   both_colored_ = !mesh_.colors.empty() && !mesh_.face_colors.empty();
   if (both_colored_) mesh_.face_colors.clear();
   if (!mesh_.face_colors.empty()) mesh_.face_colors.resize(3 * mesh_.face_count(), 1);  // of elements without colours
-  thin_ += append(mesh_, scene_);
+  append(mesh_, scene_, counts_);
   write_notes();
   return std::move(scene_);
 }
@@ -148,10 +149,13 @@ PlyReader::Plan PlyReader::plan_of(const PlyElement& element, bool of_faces) {
     if (of_faces && role < Role::kRed) role = Role::kNone;
     if (role != Role::kNone && (plan.has(role) || lacks_others(element, role))) role = Role::kNone;
     plan.roles.push_back(role);
-    if (of_faces && is_list && (p.name == "vertex_indices" || p.name == "vertex_index"))
+    if (of_faces && is_list && (p.name == "vertex_indices" || p.name == "vertex_index")) {
+      if (plan.indices != element.properties.size())
+        throw Error(lines_.file() + ": element " + element.name + " has both vertex_indices and vertex_index");
       plan.indices = i;
-    else if (role == Role::kNone && !is_of_textures(p.name))
+    } else if (role == Role::kNone && !is_of_textures(p.name)) {
       ignored.push_back("property " + one_line(p.name, 40) + " of element " + element.name);
+    }
   }
   ignored_.insert(ignored_.end(), ignored.begin(), ignored.end());
   if (!of_faces) return plan;
@@ -218,12 +222,15 @@ void PlyReader::read_vertices(const PlyElement& element) {
 void PlyReader::read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to) {
   if (!plan.has_color()) return;
   bool bright = false;
+  bool dark = false;
   for (const Role role : {Role::kRed, Role::kGreen, Role::kBlue}) {
-    const double v = std::clamp(row[static_cast<std::size_t>(role)], 0.0, 2.0);
+    const double v = row[static_cast<std::size_t>(role)];
     bright = bright || v > 1;
-    to.push_back(static_cast<float>(v));
+    dark = dark || v < 0;
+    to.push_back(static_cast<float>(std::clamp(v, 0.0, 1.0)));
   }
   bright_ += bright ? 1 : 0;
+  dark_ += dark ? 1 : 0;
   alphas_ += plan.has(Role::kAlpha) && row[static_cast<std::size_t>(Role::kAlpha)] < 1 ? 1 : 0;
 }
 
@@ -282,7 +289,7 @@ void PlyReader::add_strip() {
 void PlyReader::skip(const PlyElement& element) {
   if (element.count == 0) return;
   if (element.name == "edge")
-    thin_ += element.count;
+    counts_.thin += element.count;
   else
     ignored_.push_back("element " + one_line(element.name, 40));
   for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -305,9 +312,9 @@ void PlyReader::write_notes() {
   add(header_.textures, "texture is", "textures are", " ignored");
   for (const std::string& what : ignored_) notes.push_back(what + " is ignored");
   if (both_colored_) notes.emplace_back("the faces' colours are ignored: the vertices' are drawn");
-  add(bright_, "colour is", "colours are", " above 1, and taken as 1");
+  note_range(bright_, dark_, notes);
   note_alpha(alphas_, notes);
-  note_thin(thin_, notes);
+  note_faces(counts_, notes);
   if (values_.has_more()) notes.emplace_back("what stands behind the last element is ignored");
 }
 

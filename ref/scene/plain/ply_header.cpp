@@ -39,6 +39,7 @@ class HeaderReader {
 
   PlyHeader run() {
     if (!lines_.next() || trimmed(lines_.line()) != "ply") lines_.fail("does not begin with 'ply'");
+    const bool returns = lines_.ended_at_return();
     while (lines_.next()) {
       std::string_view rest = lines_.line();
       const std::string_view key = take_word(rest);
@@ -47,6 +48,8 @@ class HeaderReader {
         return std::move(header_);
       }
       read(key, rest);
+      // The first byte of binary data may be a line feed.
+      if (returns && has_form_ && header_.form != PlyHeader::Form::kAscii) lines_.end_at_returns();
     }
     lines_.fail("the file ends within the header");
   }

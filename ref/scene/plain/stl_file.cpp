@@ -67,7 +67,7 @@ class StlTextReader {
       if (word != "solid") unexpected("solid");
       read_solid();
     }
-    note_thin(thin_, scene_.notes);
+    note_faces(counts_, scene_.notes);
     return std::move(scene_);
   }
 
@@ -103,7 +103,7 @@ class StlTextReader {
     left_ = {};
     if (mesh.face_count() == 0) return;
     drop_zero_normals(mesh);
-    thin_ += append(mesh, scene_);
+    append(mesh, scene_, counts_);
   }
 
   /// Three corners, as the format has it, or more, as some programs write them.
@@ -127,7 +127,7 @@ class StlTextReader {
   std::string_view left_;  // of the line
   std::string_view word_;
   RawScene scene_;
-  std::size_t thin_ = 0;
+  FaceCounts counts_;
 };
 
 /// Two programs' ways of giving a facet a colour in its two own bytes, 5 bits a channel. VisCAM and SolidView: bit 15
@@ -193,7 +193,8 @@ RawScene read_binary(std::string_view bytes, const std::string& stem, const std:
   if (colored == 0) mesh.face_colors.clear();
   drop_zero_normals(mesh);
   RawScene scene;
-  (void)append(mesh, scene);
+  FaceCounts counts;  // none: all of them are triangles
+  append(mesh, scene, counts);
   note_alpha(colors.is_translucent() ? 1 : 0, scene.notes);
   if (own > 0)
     scene.notes.push_back(counted(own, "triangle has", "triangles have") +

@@ -96,7 +96,9 @@ bool TextLines::next() {
   while (at != end && *at != '\n' && *at != '\r') ++at;
   line_ = left_.substr(0, static_cast<std::size_t>(at - begin));
   std::size_t taken = line_.size();
-  if (at != end) taken += *at == '\r' && at + 1 != end && at[1] == '\n' ? 2 : 1;
+  const bool at_both = at != end && *at == '\r' && !end_at_returns_ && at + 1 != end && at[1] == '\n';
+  ended_at_return_ = at != end && *at == '\r' && !at_both;
+  if (at != end) taken += at_both ? 2 : 1;
   left_.remove_prefix(taken);
   at_ = ++passed_;
   return true;

@@ -37,6 +37,11 @@ class TextLines {
   /// Goes to the next line, the first at first. It ends at a line feed, a carriage return, or both. False at the end.
   bool next();
 
+  /// Whether the line ended at a carriage return without a line feed.
+  [[nodiscard]] bool ended_at_return() const { return ended_at_return_; }
+  /// From here on a carriage return ends a line by itself: a line feed behind it is something else.
+  void end_at_returns() { end_at_returns_ = true; }
+
   [[nodiscard]] std::string_view line() const { return line_; }
   [[nodiscard]] std::size_t at() const { return at_; }           ///< the line's number, from 1
   [[nodiscard]] std::string_view left() const { return left_; }  ///< what is behind the line
@@ -65,6 +70,8 @@ class TextLines {
   std::string_view line_;
   std::size_t at_ = 0;
   std::size_t passed_ = 0;  // lines
+  bool ended_at_return_ = false;
+  bool end_at_returns_ = false;
 };
 
 }  // namespace kage::scene

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "files.hpp"
+#include "scene/functions.hpp"
 #include "scene/import.hpp"
 #include "scene/polygon.hpp"
 #include "scene/transform.hpp"
@@ -120,6 +121,47 @@ TEST_CASE("polygons: convex as fans, concave by ears, what crosses itself someho
   check_area(flat({{0, 0}, {6, 0}, {6, 1}, {1, 1}, {1, 5}, {6, 5}, {6, 6}, {0, 6}}), 2 * 16);  // a bracket
   CHECK(areas(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})).size() == 2);
   CHECK(areas(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}})).size() == 3);
+}
+
+TEST_CASE("polygons that cross themselves are found, and no others") {
+  const auto crosses = [](const std::vector<glm::dvec3>& p) { return scene::crosses_itself(p); };
+  CHECK_FALSE(crosses(flat({{0, 0}, {1, 0}, {0, 1}})));
+  CHECK_FALSE(crosses(flat({{0, 0}, {2, 0}, {2, 1}, {0, 1}})));
+  CHECK_FALSE(crosses(flat({{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}})));
+  CHECK_FALSE(crosses(flat({{0, 0}, {1, 1}, {2, 0}, {1, 4}})));
+  CHECK_FALSE(crosses(flat({{0, 0}, {0, 0}, {0, 0}, {0, 0}, {0, 0}})));
+  CHECK_FALSE(crosses(flat({{0, 0}, {1, 0}, {2, 0}, {3, 0}})));
+  // A hole that a cut joins to the outline: its two edges lie on each other.
+  CHECK_FALSE(crosses(flat({{0, 0}, {3, 0}, {3, 3}, {0, 3}, {0, 0}, {1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}})));
+  // A bow, whose halves' areas are each other's opposite, or nearly, and a corner that reaches over an edge.
+  CHECK(crosses(flat({{0, 0}, {1, 1}, {1, 0}, {0, 1}})));
+  CHECK(crosses(flat({{0, 0}, {2, 1}, {2, 0}, {0, 1.5}})));
+  CHECK(crosses(flat({{0, 0}, {4, 0}, {4, 4}, {2, -1}, {0, 4}})));
+  // One that touches an edge, or crosses it by less than a float tells, does not.
+  CHECK_FALSE(crosses(flat({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}})));
+  CHECK_FALSE(crosses(flat({{0, 0}, {4, 0}, {4, 4}, {2, -1e-7}, {0, 4}})));
+  // Round twice, to the same side at each corner; a regular polygon goes round once. Any plane will do.
+  for (const glm::dvec3& x : {glm::dvec3{1, 0, 0}, {0, 0.6, 0.8}})
+    for (const std::size_t corners : {5, 6, 7, 101})
+      for (const int times : {1, 2}) {
+        std::vector<glm::dvec3> p;
+        for (std::size_t i = 0; i < corners; ++i) {
+          const double angle = 2 * portable::kPi * times * static_cast<double>(i) / static_cast<double>(corners);
+          p.push_back(x * std::cos(angle) + scene::cross({0, 0.8, -0.6}, x) * std::sin(angle));
+        }
+        CAPTURE(corners, times);
+        CHECK(crosses(p) == (times == 2));
+      }
+  // Many edges: a comb of 20000 teeth, as it is and with one tooth that reaches through the back.
+  std::vector<glm::dvec3> teeth = flat({{0, 5}});
+  for (int i = 0; i < 20000; ++i) {
+    teeth.emplace_back(i, 0, 0);
+    teeth.emplace_back(i + 0.5, 4, 0);
+  }
+  teeth.emplace_back(20000, 5, 0);
+  CHECK_FALSE(crosses(teeth));
+  teeth[10002].y = 6;
+  CHECK(crosses(teeth));
 }
 
 TEST_CASE("a cube of quads: faces keep the file's numbers, the solid is closed and convex") {

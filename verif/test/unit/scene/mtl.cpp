@@ -141,6 +141,14 @@ TEST_CASE("no word of a material keeps a scene from being drawn; each that is ig
            {"Kd 1 0 0\nillum 0\n", "1000 0 0",
             "1 material is said to be without shading, which is ignored: drawn lit\n"},
            {"Kd 1 0 0\nillum 7\n", "1000 0 0", "1 material is glossy, which is ignored: drawn matt\n"},
+           {"Kd 255 0 0\n", "1000 0 0", "1 material has a colour above 1, which is taken as 1\n"},
+           {"Kd -1 0.5 2\n", "0 500 1000",
+            "1 material has a colour above 1, which is taken as 1\n"
+            "1 material has a colour below 0, which is taken as 0\n"},
+           {"Kd 0 0 0\nKe 3 0.5 -1\n", "1000 500 0",
+            "1 material has a colour above 1, which is taken as 1\n"
+            "1 material has a colour below 0, which is taken as 0\n"},
+           {"Kd 1 0 0\nd 1.5\n", "1000 0 0", "1 material has an opacity above 1, which is taken as 1\n"},
            {"Kd 1 0 0\nd 0\n", "1000 0 0", "1 material has opacity 0, which is ignored: drawn opaque\n"},
        }) {
     CAPTURE(c.words);

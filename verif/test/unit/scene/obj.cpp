@@ -136,6 +136,8 @@ TEST_CASE("an OBJ file's colours are those of its vertices, wherever in it they 
         "1 colour has alpha of their own, which is ignored: the material's is used\n");
   CHECK(obj.notes("v 0 0 0 255 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") ==
         "1 vertex has a colour above 1, which is taken as 1\n");
+  CHECK(obj.notes("v 0 0 0 -1 0 0\nv 1 0 0 0 0 -0.5\nv 0 1 0 0 0 0\nf 1 2 3\n") ==
+        "2 vertices have a colour below 0, which is taken as 0\n");
 }
 
 TEST_CASE("the weight of an OBJ file's vertex concerns curves alone") {
@@ -171,6 +173,18 @@ TEST_CASE("faces of many corners are cut, concave ones too") {
   CHECK(area(obj.frame("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 1 2 3 4 5\n")) == Approx(20));
   CHECK(area(obj.frame("v 0 0 0\nv 4 0 0\nv 4 4 0\nv 2 1 0\nv 0 4 0\nf 5 4 3 2 1\n")) == Approx(20));
   CHECK(area(obj.frame(kThree + "v 1 1 0\nf 1 2 4 3\n")) == Approx(2));
+}
+
+TEST_CASE("faces that cross themselves are told") {
+  const PlainFiles obj(".obj");
+  const std::string square = "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\n";
+  const std::string one = "1 face crosses itself, and is drawn as some triangles between its corners\n";
+  CHECK(obj.notes(square + "f 1 2 3 4\nf 4 3 2 1\n").empty());
+  CHECK(obj.notes(square + "f 1 3 2 4\n") == one);
+  CHECK(obj.notes(square + "f 1 3 2 4\nf 1 2 4 3\n") ==
+        "2 faces cross themselves, and are drawn as some triangles between their corners\n");
+  CHECK(obj.notes("v 1 0 0\nv -0.809017 0.587785 0\nv 0.309017 -0.951057 0\nv 0.309017 0.951057 0\n"
+                  "v -0.809017 -0.587785 0\nf 1 2 3 4 5\n") == one);
 }
 
 TEST_CASE("an OBJ file's normals are drawn, whichever faces have them") {

@@ -60,6 +60,9 @@ TEST_CASE("OFF: colours of faces: whole numbers, others, none, and places in a l
   CHECK(off.notes(pair("255 0 0 128", "0.0 0.5 0.0 0.5")) ==
         "2 colours have alpha of their own, which is ignored: the material's is used\n");
   CHECK(off.notes(pair("1.5 0 0", "")) == "1 colour is above 1, and taken as 1\n");
+  CHECK(off.notes(pair("-5 0 0", "")) == "1 colour is below 0, and taken as 0\n");
+  CHECK(off.notes(pair("-0.5 0 2.5", "0 0 1")) ==
+        "1 colour is above 1, and taken as 1\n1 colour is below 0, and taken as 0\n");
   CHECK(off.frame(pair("255 0 0", "0 51 255")).vertices.size() == 4);  // the parts still hang together
   CHECK(off.notes("COFF\n3 1 0\n0 0 0 1 0 0 1\n1 0 0 1 0 0 1\n0 1 0 1 0 0 1\n3 0 1 2 0 0 255\n") ==
         "the faces' colours are ignored: the vertices' are drawn\n");
@@ -69,6 +72,8 @@ TEST_CASE("OFF: faces of any number of corners; what is not drawn is told") {
   const PlainFiles off(".off");
   CHECK(area(off.frame("OFF\n5 1 0\n0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n5 0 1 2 3 4\n")) == Approx(20));
   CHECK(off.notes("OFF\n4 3 0\n" + kFour + "3 0 1 2\n2 0 1\n1 3 255 0 0\n") == "2 points or lines are ignored\n");
+  CHECK(off.notes("OFF\n4 1 0\n" + kFour + "4 0 3 1 2\n") ==
+        "1 face crosses itself, and is drawn as some triangles between its corners\n");
   CHECK(off.notes("OFF\n4 1 0\n" + kFour + "3 0 1 2\n3 1 3 2\n") ==
         "what stands behind the last face, from line 8 on, is ignored\n");
 }

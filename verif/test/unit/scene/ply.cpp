@@ -98,6 +98,12 @@ TEST_CASE("PLY: lines end in any way, comments and blank lines do not count, CRL
   binary += std::string("\n\0\0\0", 4) + test::bytes_of(std::vector<float>{0, 0, 1, 0, 0, 0, 1, 0});
   binary += bytes<std::uint8_t>(3, false) + test::bytes_of(std::vector<std::int32_t>{0, 1, 2});
   CHECK(ply.frame(binary).triangles.size() == 1);
+  CHECK(ply.frame(binary).vertices[0].x < 1e-40);
+  // Where lines end at carriage returns alone, a line feed behind the last is data.
+  std::replace(head.begin(), head.end(), '\n', '\r');
+  binary = head + binary.substr(binary.find("end_header\r\n") + 12);
+  CHECK(ply.frame(binary).triangles.size() == 1);
+  CHECK(ply.notes(binary).empty());
 }
 
 TEST_CASE("PLY: colours of vertices, of each type and name") {
@@ -227,6 +233,13 @@ TEST_CASE("PLY: faces may come before their vertices, and may be of many corners
                              "0 0 0\n4 0 0\n4 4 0\n2 1 0\n0 4 0\n5 0 1 2 3 4\n"))) == Approx(20));
 }
 
+TEST_CASE("PLY: colours outside of 0 to 1 are told") {
+  const PlainFiles ply(".ply");
+  CHECK(ply.notes(square("element face 2\n" + kList + "property float red\nproperty float green\n",
+                         "3 0 1 2 -0.5 2\n3 1 3 2 0 -1\n")) ==
+        "1 colour is above 1, and taken as 1\n2 colours are below 0, and taken as 0\n");
+}
+
 TEST_CASE("PLY: normals are drawn") {
   const PlainFiles ply(".ply");
   const std::string normals = "element vertex 3\n" + kXyz + "property float nx\nproperty float ny\nproperty float nz\n";
@@ -269,6 +282,8 @@ TEST_CASE("PLY: what cannot be read is refused with its place") {
             .find("are not whole") != std::string::npos);
   CHECK(head(ascii("element vertex 3\n" + kXyz + "element face 1\nproperty int a\n", "0 0 0\n0 0 0\n0 0 0\n1\n")) ==
         "element face has no list vertex_indices");
+  CHECK(head(square("element face 1\n" + kList + "property list uchar int vertex_index\n", "3 0 1 2 3 2 1 0\n")) ==
+        "element face has both vertex_indices and vertex_index");
   CHECK(head(ascii("element vertex 1\nproperty float x\nproperty float y\n", "0 0\n")) ==
         "element vertex has no property z");
   CHECK(head(ascii("element vertex 1\nproperty float x\nproperty float x\n", "")) ==
