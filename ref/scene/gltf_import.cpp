@@ -234,8 +234,7 @@ void Importer::write_notes() {
   meshes_.materials().note(notes);
   add(meshes.alpha, "primitive's vertices have", "primitives' vertices have",
       " alpha of their own, which is ignored: the material's is used");
-  add(meshes.bright, "primitive has", "primitives have", " a colour above 1, which is taken as 1");
-  add(meshes.dark, "primitive has", "primitives have", " a colour below 0, which is taken as 0");
+  meshes_.colors().note("primitive has", "primitives have", notes);
   add(meshes.thin, "primitive of points or lines is", "primitives of points or lines are", " ignored");
   add(meshes.bare, "primitive without positions is", "primitives without positions are", " ignored");
   add(skins_.counts().idle, "skin is", "skins are", " ignored: the mesh has no joints");

@@ -65,23 +65,9 @@ void GltfMeshes::read_primitive(const Json& json, RawMesh& mesh, const std::stri
   if (!mesh.primitives.empty() && mesh.primitives[0].targets.size() != p.targets.size())
     file_->fail(place, "has not as many morph targets as the mesh's first primitive");
   materials_.read(*file_, json, p, place);
-  count_range(p);
+  colors_.add(p);
   read_corners(json, p, place);
   mesh.primitives.push_back(std::move(p));
-}
-
-void GltfMeshes::count_range(const RawPrimitive& p) {
-  const auto look = [](const glm::dvec3& c, bool& bright, bool& dark) {
-    bright = bright || c.x > 1 || c.y > 1 || c.z > 1;
-    dark = dark || c.x < 0 || c.y < 0 || c.z < 0;
-  };
-  bool bright = false;
-  bool dark = false;
-  if (p.colors.empty()) look(p.color, bright, dark);
-  for (std::size_t i = 0; i + 2 < p.colors.size(); i += 3)
-    look(p.color * glm::dvec3(p.colors[i], p.colors[i + 1], p.colors[i + 2]), bright, dark);
-  counts_.bright += bright ? 1 : 0;
-  counts_.dark += dark ? 1 : 0;
 }
 
 /// JOINTS_0 and WEIGHTS_0, and further sets, four to a set, as one.

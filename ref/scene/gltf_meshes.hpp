@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "color_range.hpp"
 #include "gltf_file.hpp"
 #include "gltf_materials.hpp"
 #include "raw.hpp"
@@ -18,11 +19,9 @@ class GltfMeshes {
  public:
   /// What is not drawn as the file has it, by primitives.
   struct Counts {
-    std::size_t thin = 0;    ///< points and lines
-    std::size_t bare = 0;    ///< without positions
-    std::size_t alpha = 0;   ///< by the colours of their vertices
-    std::size_t bright = 0;  ///< with a colour above 1, the material's times the vertex's
-    std::size_t dark = 0;    ///< with one below 0
+    std::size_t thin = 0;   ///< points and lines
+    std::size_t bare = 0;   ///< without positions
+    std::size_t alpha = 0;  ///< by the colours of their vertices
   };
 
   GltfMeshes(GltfFile& file, RawScene& scene) : file_(&file), scene_(&scene) {}
@@ -38,6 +37,7 @@ class GltfMeshes {
 
   [[nodiscard]] const GltfMaterials& materials() const { return materials_; }
   [[nodiscard]] const Counts& counts() const { return counts_; }
+  [[nodiscard]] const ColorRange& colors() const { return colors_; }
 
  private:
   using Json = GltfJson::Json;
@@ -45,7 +45,6 @@ class GltfMeshes {
   void read_primitive(const Json& json, RawMesh& mesh, const std::string& place);
   void read_joints(const Json& attributes, RawPrimitive& primitive, const std::string& place);
   void read_targets(const Json& json, RawPrimitive& primitive, const std::string& place);
-  void count_range(const RawPrimitive& primitive);
   void read_corners(const Json& json, RawPrimitive& primitive, const std::string& place);
 
   GltfFile* file_;
@@ -53,6 +52,7 @@ class GltfMeshes {
   GltfMaterials materials_;
   std::map<std::uint64_t, std::int32_t> mesh_of_;  // file's mesh -> ours
   Counts counts_;
+  ColorRange colors_;
 };
 
 }  // namespace kage::scene

@@ -19,6 +19,7 @@
 #include "file/extension.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
+#include "scene/color_range.hpp"
 #include "scene/import.hpp"
 #include "scene/module/assimp_animation.hpp"
 #include "scene/module/assimp_files.hpp"
@@ -61,7 +62,8 @@ class Reader {
   NodeNames node_of_;
   std::vector<const aiNode*> nodes_;
   std::size_t thin_faces_ = 0;
-  std::size_t crossing_ = 0;      // faces
+  std::size_t crossing_ = 0;  // faces
+  ColorRange colors_;
   std::size_t alpha_meshes_ = 0;  // by the colours of their vertices
   std::size_t skins_ = 0;
   std::size_t morphs_ = 0;
@@ -127,6 +129,7 @@ void Reader::read_mesh(const aiMesh& mesh, RawMesh& out) {
     if (mesh.mColors[0] != nullptr) push(p.colors, mesh.mColors[0][i].r, mesh.mColors[0][i].g, mesh.mColors[0][i].b);
   }
   materials_.read(mesh.mMaterialIndex, p);
+  colors_.add(p);
   alpha_meshes_ += translucent ? 1 : 0;
   skins_ += mesh.HasBones() ? 1 : 0;
   morphs_ += mesh.mNumAnimMeshes > 0 ? 1 : 0;
@@ -171,6 +174,7 @@ void Reader::write_notes() {
       " light, which is ignored: its diffuse colour is not black");
   add(materials.glossy, "material is", "materials are", " glossy, which is ignored: drawn matt");
   add(materials.unshaded, "material is", "materials are", " said to be without shading, which is ignored: drawn lit");
+  colors_.note("mesh has", "meshes have", out_.notes);
   add(alpha_meshes_, "mesh's vertices have", "meshes' vertices have",
       " alpha of their own, which is ignored: the material's is used");
   add(thin_faces_, "point or line is", "points or lines are", " ignored");

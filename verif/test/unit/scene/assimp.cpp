@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "files.hpp"
 #include "scene/functions.hpp"
@@ -213,6 +214,41 @@ TEST_CASE("camera, light and animation of another format") {
   CHECK(s.frame_count() == 8);
   CHECK(s.frame(0, 2).vertices[0] == glm::dvec3{0, 0, 0});
   CHECK(f.vertices[0] == glm::dvec3{1, 0, 0});  // half way from (0 0 0) to (2 0 0)
+}
+
+TEST_CASE("colours outside of 0 to 1 and polygons that cross themselves are told of Assimp's formats too") {
+  const TempDirectory dir;
+  const auto notes = [](const std::string& file) {
+    std::string all;
+    for (const std::string& note : scene::import_assimp(file, "x").notes) all += note + "\n";
+    return all;
+  };
+  const std::string mesh = "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices>";
+  REQUIRE(std::string(kCollada).find(mesh) != std::string::npos);
+  const auto colored = [&](const std::string& first) {
+    std::string text = kCollada;
+    text.replace(text.find(mesh), mesh.size(),
+                 "<source id=\"c\"><float_array id=\"ca\" count=\"9\">" + first +
+                     " 0 1 0 0 0 1</float_array><technique_common><accessor source=\"#ca\" count=\"3\" stride=\"3\">"
+                     "<param name=\"R\" type=\"float\"/><param name=\"G\" type=\"float\"/>"
+                     "<param name=\"B\" type=\"float\"/></accessor></technique_common></source>"
+                     "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/>"
+                     "<input semantic=\"COLOR\" source=\"#c\"/></vertices>");
+    return notes(dir.write("colored.dae", text));
+  };
+  CHECK(colored("1 0 0").find("colour") == std::string::npos);
+  CHECK(colored("2 0 0").find("1 mesh has a colour above 1, which is taken as 1\n") != std::string::npos);
+  CHECK(colored("1 -1 0").find("1 mesh has a colour below 0, which is taken as 0\n") != std::string::npos);
+  std::string bow = kCollada;
+  for (const auto& [from, to] : {std::pair{"count=\"9\">0 0 0 1 0 0 0 1 0<", "count=\"12\">0 0 0 1 1 0 1 0 0 0 1 0<"},
+                                 {"<accessor source=\"#pa\" count=\"3\"", "<accessor source=\"#pa\" count=\"4\""},
+                                 {"<triangles count=\"1\">", "<polylist count=\"1\">"},
+                                 {"<p>0 1 2</p></triangles>", "<vcount>4</vcount><p>0 1 2 3</p></polylist>"}}) {
+    REQUIRE(bow.find(from) != std::string::npos);
+    bow.replace(bow.find(from), std::string(from).size(), to);
+  }
+  CHECK(notes(dir.write("bow.dae", bow)).find("1 face crosses itself, and is drawn as some triangles") !=
+        std::string::npos);
 }
 
 TEST_CASE("both readers see the same triangles in a glTF file") {
