@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf_uses.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
@@ -107,11 +109,12 @@ void GltfRemarks::note(std::vector<std::string>& notes) const {
     std::size_t told = 0;
     for (const std::uint64_t number : numbers) {
       if (told == kMostNumbers) break;
-      text += (told++ == 0 ? " " : ", ") + std::to_string(number);
+      text += told++ == 0 ? " " : ", ";
+      text += std::to_string(number);
     }
-    if (numbers.size() > told) text += " and " + std::to_string(numbers.size() - told) + " more";
-    text += of.empty() ? "" : " (" + of + ")";
-    notes.push_back(text + (numbers.size() == 1 ? " has " : " have ") + remark);
+    if (numbers.size() > told) text += fmt::format(" and {} more", numbers.size() - told);
+    if (!of.empty()) text += fmt::format(" ({})", of);
+    notes.push_back(fmt::format("{} {} {}", text, numbers.size() == 1 ? "has" : "have", remark));
   }
   notes.insert(notes.end(), sentences_.begin(), sentences_.end());
 }
