@@ -14,6 +14,10 @@
 namespace kage::board {
 namespace {
 
+/// No board plays more frames than this within a time of kLook: a step that is larger goes back, modulo 2^16.
+constexpr std::uint16_t kMostAtOnce = 0x7FFF;
+constexpr std::uint64_t kLook = 20'000;
+
 /// The CRC-32 of a run of bytes, and how long that is: two of them, one behind the other, are another.
 struct Crc {
   std::uint32_t crc = 0;
@@ -55,7 +59,10 @@ void PackPlay::loop() {
   now_at("played " + frames_text(run) + " over and over");
   const std::uint64_t begin = clock_.now();
   std::uint64_t moved = begin;
+  std::uint64_t looked = begin;
   std::uint64_t played = 0;
+  std::uint32_t lines_at = 0;    // when a frame was played last
+  std::uint32_t most_lines = 0;  // that came since
   PlayState last;
   std::optional<ScreenCounts> first_screen;
   bool hung = false;
@@ -63,9 +70,20 @@ void PackPlay::loop() {
   while (true) {  // what would end another run ends the loop, and enough() knows
     const PlayState s = player_.state();
     const std::uint64_t now = clock_.now();
-    if (s.lines != last.lines || s.played != last.played) moved = now;
     // The board counts modulo 2^16. Frames are fewer than lines, so it is they that are counted on.
-    played += static_cast<std::uint16_t>(s.played - last.played);
+    const auto more = static_cast<std::uint16_t>(s.played - last.played);
+    if (more > kMostAtOnce && now - looked < kLook) goes_back("PLAYED", last.played, s.played);
+    looked = now;
+    played += more;
+    const auto lines = static_cast<std::uint16_t>(s.lines - lines_at);
+    if (more != 0) {
+      lines_at = s.lines;
+      most_lines = 0;
+      moved = now;
+    } else if (lines > most_lines && lines <= run.lines) {
+      most_lines = lines;
+      moved = now;
+    }
     last = s;
     v.repetitions = played / run.frames;
     v.mismatches = player_.get(KAGE_BOARD_MISMATCHES);
@@ -93,7 +111,7 @@ std::uint64_t PackPlay::lines_of(const PackRun& run, std::uint64_t frames) const
 
 void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung, std::uint64_t played, const PlayState& last) {
   player_.stop();
-  const Waited stopped = wait_for(0, run.lines);
+  const Waited stopped = wait_for(0, run.lines, run.frames, player_.state());
   played += static_cast<std::uint16_t>(stopped.state.played - last.played);
   v.repetitions = played / run.frames;
   v.lines = lines_of(run, played);

@@ -14,6 +14,27 @@ namespace {
 /// A screen takes 17 ms, and counts a frame at its end: two of them, and some more.
 constexpr std::uint64_t kScreensEnd = 50'000;
 
+/// So many times the patience, in all, it is enough that words come.
+constexpr std::uint64_t kWordsAlone = 4;
+
+/// A counter modulo 2^16, since `from`.
+struct Growth {
+  std::uint32_t from;
+  std::uint64_t most;      ///< that it may grow by
+  std::uint64_t at = 0;    ///< as it was last
+  std::uint64_t seen = 0;  ///< the most of what it may
+
+  [[nodiscard]] std::uint64_t since(std::uint32_t count) const { return static_cast<std::uint16_t>(count - from); }
+  /// Behind `most` it may have begun anew.
+  [[nodiscard]] bool goes_back(std::uint32_t count) const { return at <= most && since(count) < at; }
+  bool grows(std::uint32_t count) {
+    at = since(count);
+    if (std::min(at, most) <= seen) return false;
+    seen = std::min(at, most);
+    return true;
+  }
+};
+
 std::string status_text(std::uint32_t status) {
   std::string text;
   const auto add = [&](std::uint32_t mask, const char* what) {
@@ -129,15 +150,34 @@ void PackPlay::video_lines(const PackRun& run) {
     player_.set(KAGE_BOARD_VIDEO_LINES, static_cast<std::uint32_t>(run.height));
 }
 
-PackPlay::Waited PackPlay::wait_for(std::uint64_t lines, std::uint64_t of_lines) {
+void PackPlay::goes_back(const char* counter, std::uint32_t from, std::uint32_t to) const {
+  throw Error(
+      fmt::format("{}: board {}: {} goes back from {} to {} while it {}: the link checks what it brings, so it is the "
+                  "board that says so: load a bitstream of tools/fpga",
+                  player_.port(), verdict_.board.name, counter, from, to, doing_));
+}
+
+/// Only growth since `from` keeps it waiting, up to what a list brings: registers that alternate would for ever. Lines
+/// and frames beyond are for the verdict.
+PackPlay::Waited PackPlay::wait_for(std::uint64_t lines, std::uint64_t of_lines, std::uint64_t of_frames,
+                                    const PlayState& from) {
   std::uint64_t moved = clock_.now();
-  PlayState last;
+  Growth line_growth{from.lines, of_lines};
+  Growth frame_growth{from.played, of_frames};
+  PlayState last = from;
   while (true) {
     wait();
     const PlayState s = player_.state();
     if (!s.playing && s.lines >= lines) return {true, s};
     const std::uint64_t now = clock_.now();
-    if (s.lines != last.lines || s.played != last.played || s.play_crc != last.play_crc || s.playing != last.playing)
+    if (line_growth.goes_back(s.lines)) goes_back("LINES", last.lines, s.lines);
+    if (frame_growth.goes_back(s.played)) goes_back("PLAYED", last.played, s.played);
+    const bool line = line_growth.grows(s.lines);
+    const bool frame = frame_growth.grows(s.played);
+    // A check of words tells that some came, and not how many.
+    const bool words = s.play_crc != last.play_crc && words_alone_ < kWordsAlone * options_.timeout;
+    if (words && !line && !frame) words_alone_ += now - moved;
+    if (line || frame || words)
       moved = now;
     else if (now - moved >= options_.timeout)
       return {false, s};
@@ -182,13 +222,13 @@ void PackPlay::play(const PackRun& run) {
     }
   }
   // Of other words than were loaded other lines come, or fewer: so the words are looked at first.
-  Waited waited = wait_for(0, run.lines);
+  Waited waited = wait_for(0, run.lines, run.frames);
   const PlayState& given = waited.state;
   const bool whole = given.played == run.frames;
   if (!run.direct && (whole ? given.play_crc != words_crc(run, run.frames) : waited.ended)) blame_memory(run);
   if (!run.direct && !waited.ended && given.played <= run.frames)
     blame_silent_memory(run, given, run.first + given.played, words_crc(run, given.played));
-  if (waited.ended) waited = wait_for(run.lines, run.lines);
+  if (waited.ended) waited = wait_for(run.lines, run.lines, run.frames);
   verdict_.seconds += static_cast<double>(clock_.now() - begin) / 1e6;
   if (!waited.ended) {
     hangs(run, waited.state, "nothing more comes", true);

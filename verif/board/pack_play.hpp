@@ -59,7 +59,8 @@ class PackPlay {
   [[nodiscard]] std::uint64_t lines_before(const PackRun& run, std::uint64_t frame) const;
   [[nodiscard]] Place place_of(const PackRun& run, std::uint64_t line) const;
   void video_lines(const PackRun& run);
-  Waited wait_for(std::uint64_t lines, std::uint64_t of_lines);
+  Waited wait_for(std::uint64_t lines, std::uint64_t of_lines, std::uint64_t of_frames, const PlayState& from = {});
+  [[noreturn]] void goes_back(const char* counter, std::uint32_t from, std::uint32_t to) const;
   bool wait_for_frames(std::uint64_t frames);
   void judge_lines(const PackRun& run, std::uint64_t came);
   void judge_registers(std::uint64_t frame);
@@ -87,9 +88,10 @@ class PackPlay {
   PackAnswers answers_;
   PackVerdict verdict_;
   std::string doing_ = "was asked what it is";
-  bool lost_ = false;        // the link executes nothing more
-  std::uint64_t shown_ = 0;  // frames with pixels that were played
-  ScreenCounts before_;      // of the screen, ahead of the first list
+  bool lost_ = false;              // the link executes nothing more
+  std::uint64_t words_alone_ = 0;  // time in which nothing but words came
+  std::uint64_t shown_ = 0;        // frames with pixels that were played
+  ScreenCounts before_;            // of the screen, ahead of the first list
 };
 
 }  // namespace kage::board

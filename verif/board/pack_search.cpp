@@ -31,7 +31,7 @@ PackPlay::Replay PackPlay::replay(const PackRun& run, std::uint64_t first, Place
   player_.start(address_of(run, first));
   if (run.direct) player_.direct(list_of(run));
   Replay got;
-  got.ended = wait_for(lines, lines).ended;
+  got.ended = wait_for(lines, lines, part.frames).ended;
   got.signature = player_.get(KAGE_BOARD_SIGNATURES + 4 * number);
   got.pixels = player_.captured(verdict_.board.pixels, got.came);
   return got;
@@ -161,7 +161,7 @@ void PackPlay::blame_memory(const PackRun& run) {
     player_.load(at, std::span(&end, 1));
     player_.restart();
     player_.start(0);
-    const Waited waited = wait_for(0, lines_before(run, part.end()));
+    const Waited waited = wait_for(0, lines_before(run, part.end()), frames);
     player_.restart();  // whoever hangs lets go of the memory
     player_.load(at, std::span(&there, 1));
     return waited.ended && waited.state.played == frames && waited.state.play_crc == words_crc(run, frames);

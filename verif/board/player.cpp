@@ -20,6 +20,9 @@ constexpr std::size_t kPiece = 1024;
 /// Pieces of a load between two calls of state(): 1,100 frames of the link, which counts them modulo 2^16.
 constexpr int kPiecesToCount = 64;
 
+/// What PLAYED and LINES hold at most.
+constexpr std::uint32_t kMostCounted = 0xFFFF;
+
 constexpr std::uint32_t kHold = KAGE_BOARD_CONTROL_HOLD_MASK;
 
 std::string letters(std::uint32_t name) {
@@ -137,6 +140,10 @@ PlayState Player::state() {
   s.play_crc = at(KAGE_BOARD_PLAY_CRC);
   s.played = at(KAGE_BOARD_PLAYED);
   s.lines = at(KAGE_BOARD_LINES);
+  for (const auto& [name, count] : {std::pair{"PLAYED", s.played}, std::pair{"LINES", s.lines}})
+    if (count > kMostCounted)
+      throw Error(fmt::format("{}: {} reads {:#x}, and counts modulo 65536: load a bitstream of tools/fpga", port_,
+                              name, count));
   count(std::span(all).last((KAGE_BOARD_LINK_OVERRUNS - KAGE_BOARD_FRAMES_SHOWN) / 4 + 1));
   return s;
 }

@@ -114,6 +114,11 @@ kill "${boards[-1]}"
 board silent 3
 trouble "board FAKE: the memory gives no more words behind word 2 of frame 0, and the core waits for them" "$kage" board --port "$port" pack --timeout 0.3
 kill "${boards[-1]}"
+board back 1
+begin=$SECONDS
+trouble "board FAKE: LINES goes back from " timeout 30 "$kage" board --port "$port" pack --timeout 0.5
+[ $((SECONDS - begin)) -lt 10 ] || fail "a counter that goes back takes $((SECONDS - begin)) s to notice"
+kill "${boards[-1]}"
 board reset 30
 trouble "the board was reset while it " "$kage" board --port "$port" pack
 idle

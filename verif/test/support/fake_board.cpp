@@ -6,6 +6,7 @@
 //   line N    line N since power-up has a wrong pixel whenever its pixels come again
 //   once N    line N since power-up has a wrong pixel
 //   hang N    the core hangs in frame N
+//   back N    the core hangs in frame N, and LINES goes back by one now and then
 //   reset N   the board is reset at the link's frame N
 //   hash      the core has another PARAM_HASH
 //   screen    none: it has a screen, for which a line of each frame is too late
@@ -39,7 +40,12 @@ void spoil(kage::test::FakeBoard& board, const std::string& fault, std::uint64_t
     };
   else if (fault == "hang")
     board.hangs_in = n;
-  else if (fault == "reset")
+  else if (fault == "back") {
+    board.hangs_in = n;
+    board.board_says = [reads = 0](std::uint32_t address, std::uint32_t value) mutable {
+      return address == KAGE_BOARD_LINES && value > 0 ? value - static_cast<std::uint32_t>(reads++ / 9 % 2) : value;
+    };
+  } else if (fault == "reset")
     board.resets_at = n;
   else if (fault == "hash")
     board.other_hash = 1;

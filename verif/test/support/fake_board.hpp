@@ -48,7 +48,8 @@ class FakeBoard : public board::Transport {
   std::function<bool(std::uint32_t address)> memory_ends;  ///< true: from that read on the memory gives no word
   std::optional<std::uint64_t> resets_at;                  ///< frame of the link since power-up
   std::optional<std::uint32_t> other_hash;                 ///< PARAM_HASH
-  std::function<std::uint32_t(std::uint32_t address, std::uint32_t value)> core_says;  ///< of the core's registers
+  std::function<std::uint32_t(std::uint32_t address, std::uint32_t value)> core_says;   ///< of the core's registers
+  std::function<std::uint32_t(std::uint32_t address, std::uint32_t value)> board_says;  ///< of its own registers
   std::uint32_t underruns = 0;       ///< lines that run short in each frame that is shown
   std::uint32_t counted_before = 0;  ///< what the counters of screen and link stand at when it is powered up
 
@@ -177,6 +178,10 @@ class FakeBoard : public board::Transport {
   // ---- registers ----
   std::uint32_t get(std::uint32_t address) {
     if (address < KAGE_BOARD_ID) return core(address);
+    const std::uint32_t value = own(address);
+    return board_says ? board_says(address, value) : value;
+  }
+  std::uint32_t own(std::uint32_t address) {
     if (address >= KAGE_BOARD_PIXELS && address < KAGE_BOARD_PIXELS + 4 * KAGE_BOARD_PIXELS_WORDS)
       return pixels_.at((address - KAGE_BOARD_PIXELS) / 4);
     if (address >= KAGE_BOARD_SIGNATURES && address < KAGE_BOARD_SIGNATURES + 4 * KAGE_BOARD_SIGNATURES_WORDS)

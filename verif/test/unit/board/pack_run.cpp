@@ -493,6 +493,48 @@ TEST_CASE("a core that hangs is told from one that is slow") {
   CHECK(v.frames == 2);
 }
 
+TEST_CASE("registers that alternate are no board that is slow") {
+  // The core hangs, and a register says now this and now that, which once kept kage waiting for ever.
+  const auto alternate = [](FakeBoard& board, std::uint32_t at, std::uint64_t frame) {
+    board.hangs_in = frame;
+    board.board_says = [at, frame, &board, reads = 0](std::uint32_t address, std::uint32_t value) mutable {
+      const bool looped = (board.control() & KAGE_BOARD_CONTROL_LOOP_MASK) != 0;
+      if (looped != (frame > fixture().pack.frames.size())) return value;
+      if (++reads > 1'000'000) throw std::runtime_error("it waits for ever");
+      return address == at && value > 0 && reads / 40 % 2 == 0 ? value - 1 : value;
+    };
+  };
+  FakeBoard lines(config());
+  alternate(lines, KAGE_BOARD_LINES, 1);
+  CHECK(has(trouble(lines), "PORT: board FAKE: LINES goes back from "));
+  FakeBoard played(config());
+  alternate(played, KAGE_BOARD_PLAYED, 1);
+  CHECK(has(trouble(played), "PORT: board FAKE: PLAYED goes back from 1 to 0 while it played frames 0 to "));
+  FakeBoard crc(config());
+  alternate(crc, KAGE_BOARD_PLAY_CRC, 1);
+  try {
+    const PackVerdict v = play(crc);
+    REQUIRE(v.first);
+    CHECK(has(v.first->remark, "the core hangs"));
+  } catch (const Error& e) {
+    CHECK(has(e.what(), "the memory gives"));  // so it looks, where words and their check do not fit
+  }
+  FakeBoard huge(config());
+  huge.board_says = [reads = 0U](std::uint32_t address, std::uint32_t value) mutable {
+    return address == KAGE_BOARD_LINES && value > 0 ? 0xFFFFFFF0 + reads++ % 16 : value;
+  };
+  CHECK(has(trouble(huge), "PORT: LINES reads 0xfffffff"));
+  // Over and over.
+  PackRunOptions o = options();
+  o.loop = 0;
+  FakeBoard repeated(config());
+  alternate(repeated, KAGE_BOARD_PLAYED, fixture().pack.frames.size() * 3);
+  CHECK(has(trouble(repeated, o), "PORT: board FAKE: PLAYED goes back from "));
+  FakeBoard again(config());
+  alternate(again, KAGE_BOARD_LINES, fixture().pack.frames.size() * 3);
+  CHECK(has(trouble(again, o), "PORT: board FAKE: LINES goes back from "));
+}
+
 TEST_CASE("a line that came out wrong before the core hangs is the first difference") {
   FakeBoard board(config());
   board.hangs_in = 2;
