@@ -110,9 +110,7 @@ board::PackVerdict play(const BoardCommand& o, const vectors::Pack& pack) {
 int run(const BoardCommand& o) {
   check_options(o);
   const vectors::Pack pack = vectors::checked_pack(o.input, vectors::Check::answers, check_interrupt);
-  std::vector<std::string> inputs{(std::filesystem::path(o.input) / vectors::kManifest).string()};
-  for (const vectors::PackFile& f : pack.files) inputs.push_back((std::filesystem::path(o.input) / f.name).string());
-  refuse_inputs({file_named(o.json)}, inputs);
+  refuse_inputs({file_named(o.json)}, vectors::files_of(o.input, pack));
   check_json(o);
   std::optional<OutFolder> folder;
   std::optional<ReportLock> lock;

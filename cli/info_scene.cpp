@@ -159,7 +159,7 @@ void print(const Options& o, const Json& j) {
 }  // namespace
 
 int describe_scene(const Options& o) {
-  const Scene scene = Scene::load(o.input, {1, o.allow_outside, check_interrupt});
+  const Scene scene = load_scene(o.input, o, 1);
   const SceneFrame frame = scene.frame(0, scene.frame_count());
   Json j = contents_of(scene, frame);
   add_configurations(o, scene, frame, j);

@@ -29,8 +29,7 @@ struct ModelCommand : Options {
 std::vector<NamedConfig> plans(const ModelCommand& o) {
   std::vector<NamedConfig> list;
   for (const std::string& input : o.planned) {
-    NamedConfig named = planned_config(
-        o, std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt})));
+    NamedConfig named = planned_config(o, std::make_shared<const Scene>(load_scene(input, o)));
     named.name = fmt::format("plan of {}", input);
     list.push_back(std::move(named));
   }
@@ -38,7 +37,8 @@ std::vector<NamedConfig> plans(const ModelCommand& o) {
 }
 
 int run(const ModelCommand& o) {
-  refuse_inputs({o.json}, o.configs);
+  refuse_inputs({file_named(o.json)}, o.configs);
+  refuse_inputs({}, o.planned);
   check_json(o);
   std::vector<NamedConfig> list;
   if (o.configs.empty() && o.planned.empty()) list = named_configs();

@@ -40,7 +40,7 @@ struct OrderCommand : Options {
 OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) {
   if (is_order_file(o.input)) return OrderTree::load(o.input);
   progress.show("reading");
-  const Scene scene = Scene::load(o.input, {1, o.allow_outside, check_interrupt});
+  const Scene scene = load_scene(o.input, o, 1);
   const OrderMesh mesh = order_mesh(scene.frame(0, scene.frame_count()));
   OrderBuildOptions options = order_build(o, progress, o.input + ": visibility order");
   options.seed = o.seed;

@@ -58,7 +58,7 @@ PlannedScene open(const PlanCommand& o, const std::string& input, Progress& prog
   refuse_pack(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
   return planned_scene(
-      o, std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt})), progress);
+      o, std::make_shared<const Scene>(load_scene(input, o)), progress);
 }
 
 PlanOptions options_of(const PlanCommand& o, Progress& progress) {
@@ -304,6 +304,7 @@ Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::stri
 }
 
 int run(const PlanCommand& o) {
+  refuse_inputs({file_named(o.json)}, o.inputs);
   check_json(o);
   Progress progress;
   std::vector<PlannedScene> scenes;

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <map>
+#include <mutex>
 #include <set>
 
 #include "file/real_path.hpp"
@@ -104,13 +106,17 @@ void refuse_twice(const std::vector<std::string>& paths) {
 }
 
 void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
+  static std::mutex mutex;
+  static std::set<std::filesystem::path> read;
+  static std::map<std::filesystem::path, std::string> written;  // as the run was told
+  const std::lock_guard lock(mutex);
   std::error_code ec;
-  std::set<std::filesystem::path> read;
   for (const std::string& input : inputs)
     if (std::filesystem::is_regular_file(input, ec)) read.insert(real_path(input));
   for (const std::string& output : outputs)
-    if (!output.empty() && read.count(real_path(output)) != 0)
-      throw Error(fmt::format("{}: this output would overwrite an input", output));
+    if (!output.empty()) written.emplace(real_path(output), output);
+  for (const auto& [path, output] : written)
+    if (read.count(path) != 0) throw Error(fmt::format("{}: this output would overwrite an input", output));
 }
 
 }  // namespace kage::cli

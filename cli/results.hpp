@@ -69,7 +69,8 @@ class OutFolder {
 void refuse_twice(const std::vector<std::string>& paths);
 
 /// Throws Error if a file that is to be written, by whatever name, is one of those that are read. Empty paths and names
-/// of no file (a built-in scene, a named configuration) are none.
+/// of no file (a built-in scene, a named configuration) are none. Both lists go to those of earlier calls: which files a
+/// scene consists of is known once it is read, and holds against all that were to be written before.
 void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 }  // namespace kage::cli

@@ -38,6 +38,10 @@ void refuse_random(const std::string& input);
 /// Throws Error if a scene is named twice, where scenes are told apart by their names or counted together.
 void refuse_repeated(const std::vector<std::string>& inputs);
 
+/// Loads a scene. Throws Error too if the run writes a file that the scene consists of.
+Scene load_scene(const std::string& input, const Options& options);
+Scene load_scene(const std::string& input, const Options& options, double alpha);
+
 /// How a scene is drawn, as the options say. Building an order of translucent faces says nothing and asks for no
 /// interruption: DrawOptions::order is for the caller to set.
 DrawOptions draw_options(const Options& options);

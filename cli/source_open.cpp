@@ -55,6 +55,14 @@ void refuse_random(const std::string& input) {
     throw Error(fmt::format("{}: random frames are for kage cosim, kage explain and kage vectors", input));
 }
 
+Scene load_scene(const std::string& input, const Options& options) { return load_scene(input, options, options.alpha); }
+
+Scene load_scene(const std::string& input, const Options& options, double alpha) {
+  Scene scene = Scene::load(input, {alpha, options.allow_outside, check_interrupt});
+  refuse_inputs({}, scene.files());
+  return scene;
+}
+
 DrawOptions draw_options(const Options& options) {
   DrawOptions draw;
   draw.width = options.size.width;
@@ -161,8 +169,7 @@ void Source::add_front_end(const Options& options) {
 }
 
 void Source::load_scene(const Options& options) {
-  scene_ = std::make_shared<const Scene>(
-      Scene::load(options.input, {options.alpha, options.allow_outside, check_interrupt}));
+  scene_ = std::make_shared<const Scene>(cli::load_scene(options.input, options));
   name_ = plain_name(scene_->name());
   frames_ = options.frames > 0 ? options.frames : scene_->frame_count();
   progress_ = std::make_unique<Progress>();

@@ -157,7 +157,9 @@ int run(const SweepCommand& o) {
   refuse_twice({file_named(o.json), file_named(o.csv), o.store, page});
   check_json(o);
   check_output(file_named(o.csv));
-  refuse_inputs({file_named(o.json), file_named(o.csv), o.store}, o.take);
+  refuse_inputs({file_named(o.json), file_named(o.csv), o.list ? "" : o.store, page}, o.take);
+  refuse_inputs({}, o.inputs);
+  refuse_inputs({}, {o.config});
   check_stores(o);
   Progress progress;
   std::vector<SweptScene> scenes;

@@ -101,7 +101,7 @@ SweptScene open_swept(const SweepCommand& o, const Tools& tools, const std::stri
   refuse_random(input);
   refuse_order_tree(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
-  auto scene = std::make_shared<const Scene>(Scene::load(input, {o.alpha, o.allow_outside, check_interrupt}));
+  auto scene = std::make_shared<const Scene>(load_scene(input, o));
   PlannedScene planned = planned_scene(o, scene, progress);
   if (planned.draw.frames == 0) planned.draw.frames = std::min(2, scene->frame_count());
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));

@@ -173,6 +173,15 @@ void GltfFile::read_chunks(Bytes& text) {
   text = Bytes(text.begin() + 20, text.begin() + static_cast<std::ptrdiff_t>(next));
 }
 
+std::vector<std::string> GltfFile::files() const {
+  const auto images = root().find("images");
+  if (images != root().end() && images->is_array())
+    for (const Json& image : *images)
+      if (const auto uri = image.is_object() ? image.find("uri") : image.end(); uri != image.end() && uri->is_string())
+        (void)side_files_.find_named(percent_decoded(uri->get<std::string>()));
+  return side_files_.files();
+}
+
 const Bytes& GltfFile::buffer(std::uint64_t index, const std::string& place) {
   const Json& json = item("buffers", index, place);
   std::optional<Bytes>& slot = buffers_[static_cast<std::size_t>(index)];

@@ -52,6 +52,8 @@ class GltfFile : public GltfJson {
   bool has_data(std::uint64_t index, const std::string& place) const;
   /// Sentences on what the format does not allow and is drawn all the same, of what was read so far.
   void note(std::vector<std::string>& notes) const { remarks_.note(notes); }
+  /// The files of buffers that were read, and of images, which are not.
+  [[nodiscard]] std::vector<std::string> files() const;
 
  private:
   struct View;

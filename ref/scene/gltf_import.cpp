@@ -41,6 +41,7 @@ class Importer {
     skins_.drop_unmoved();
     count_contents();
     write_notes();
+    scene_.files = file_.files();
     return std::move(scene_);
   }
 

@@ -116,6 +116,7 @@ struct RawScene {
   std::uint32_t frames = 0;      ///< as the file asks (extras.kage.frames); 0: it does not
   SceneContents contents;
   std::vector<std::string> notes;
+  std::vector<std::string> files;  ///< that it names and that are there, from the root
 };
 
 }  // namespace kage::scene

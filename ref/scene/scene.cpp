@@ -280,6 +280,7 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
                 names + ")");
   }
   data->raw = scene::import_in_child(path, shown, options.allow_outside, options.wait);
+  data->raw.files.push_back(path.string());
   for (scene::RawMesh& mesh : data->raw.meshes)
     for (scene::RawPrimitive& p : mesh.primitives) p.alpha *= options.alpha;
   try {
@@ -360,6 +361,7 @@ SceneFrame Scene::frame(int index, int count) const {
 
 const std::vector<std::string>& Scene::objects() const { return data_->object_names; }
 const SceneContents& Scene::contents() const { return data_->raw.contents; }
+const std::vector<std::string>& Scene::files() const { return data_->raw.files; }
 const std::vector<std::string>& Scene::notes() const { return data_->notes; }
 bool Scene::needs_smooth() const { return data_->smooth; }
 const std::string& Scene::name() const { return data_->name; }

@@ -25,6 +25,7 @@ SideFiles::Found SideFiles::find(const fs::path& path) const {
   std::error_code error;
   found.exists = fs::is_regular_file(found.path, error);
   found.refused = !allow_outside_ && !lies_in(found.path, real_);
+  if (found.exists && !found.refused) files_.insert(found.path.string());
   return found;
 }
 

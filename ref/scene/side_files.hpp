@@ -6,7 +6,9 @@
 #pragma once
 
 #include <filesystem>
+#include <set>
 #include <string>
+#include <vector>
 
 namespace kage::scene {
 
@@ -27,6 +29,9 @@ class SideFiles {
   /// `name` is as the scene's file has it, absolute or counted from that file's folder.
   [[nodiscard]] Found find_named(const std::string& name) const;
 
+  /// The files that were looked for and are there to be read, each once, from the root.
+  [[nodiscard]] std::vector<std::string> files() const { return {files_.begin(), files_.end()}; }
+
   /// Why a file is refused: the end of a message.
   static std::string refusal(const std::string& name);
 
@@ -34,6 +39,7 @@ class SideFiles {
   std::filesystem::path folder_;  // of the scene's file
   std::filesystem::path real_;    // the same without links and dots
   bool allow_outside_;
+  mutable std::set<std::string> files_;
 };
 
 }  // namespace kage::scene

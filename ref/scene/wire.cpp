@@ -89,7 +89,7 @@ void fields(Archive& ar, P& v) {
   else if constexpr (std::is_same_v<T, RawTrack>)
     ar(v.node, v.path, v.interpolation, v.times, v.values, v.targets);
   else
-    ar(v.meshes, v.skins, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.contents, v.notes);
+    ar(v.meshes, v.skins, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.contents, v.notes, v.files);
 }
 
 // Of fixed size and without pointers: its bytes are its value.

@@ -122,6 +122,12 @@ std::uint64_t Pack::malformed() const {
   return sum(frames, [](const PackFrame& f) { return f.status.error == ErrorCode::NONE ? 0U : 1U; });
 }
 
+std::vector<std::string> files_of(const std::filesystem::path& folder, const Pack& pack) {
+  std::vector<std::string> all{(folder / kManifest).string()};
+  for (const PackFile& f : pack.files) all.push_back((folder / f.name).string());
+  return all;
+}
+
 std::vector<RegisterRead> register_reads(const Config& config, std::span<const PackFrame> frames) {
   std::vector<RegisterRead> reads;
   std::uint32_t errors = 0;

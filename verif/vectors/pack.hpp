@@ -73,6 +73,9 @@ struct Pack {
   [[nodiscard]] std::uint64_t malformed() const;  ///< frames with an error
 };
 
+/// The paths of all files of the pack in that folder, the manifest among them.
+std::vector<std::string> files_of(const std::filesystem::path& folder, const Pack& pack);
+
 /// What the registers must say behind the frames that settle, by how the frames end; behind the last one all constants
 /// too. The registers are those of a core that got nothing but these frames since reset.
 std::vector<RegisterRead> register_reads(const Config& config, std::span<const PackFrame> frames);

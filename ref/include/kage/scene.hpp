@@ -199,6 +199,9 @@ class Scene {
   /// @return what of the file is used
   [[nodiscard]] const SceneContents& contents() const;
 
+  /// @return the scene's file, and the files that it names and that are there, as a library of materials
+  [[nodiscard]] const std::vector<std::string>& files() const;
+
   /// @return whether corners of some triangle differ in shading, so that colour varies within it
   [[nodiscard]] bool needs_smooth() const;
 

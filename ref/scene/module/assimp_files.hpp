@@ -24,6 +24,8 @@ class AssimpFiles : public Assimp::DefaultIOSystem {
   /// The first file that was asked for, exists and was refused, or "". Readers try names that they make up, so one that
   /// does not exist is no more than missing.
   [[nodiscard]] const std::string& refused() const { return refused_; }
+  /// Those that were asked for and may be read.
+  [[nodiscard]] std::vector<std::string> files() const { return side_files_.files(); }
 
  private:
   std::string found(const char* name) const;

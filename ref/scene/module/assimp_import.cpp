@@ -215,7 +215,9 @@ RawScene read(const std::filesystem::path& path, const std::string& name, bool a
     if (cause.rfind("No suitable reader found", 0) == 0) throw Error(name + ": " + no_format(path));
     throw Error(name + ": " + (cause.empty() ? "Assimp cannot read it" : cause));
   }
-  return Reader(*scene, name).run();
+  RawScene read = Reader(*scene, name).run();
+  read.files = files->files();
+  return read;
 }
 
 }  // namespace kage::scene::mesh_module

@@ -82,6 +82,7 @@ RawScene ObjReader::run() {
   libraries_.fall_back(scene_.notes);
   missing_normals_ = build_obj(std::move(data_), libraries_, scene_, counts_);
   write_notes();
+  scene_.files = libraries_.files();
   return std::move(scene_);
 }
 

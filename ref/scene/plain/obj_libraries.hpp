@@ -32,6 +32,9 @@ class ObjLibraries {
   /// Takes the library of the OBJ file's own name where none that it names is there.
   void fall_back(std::vector<std::string>& notes);
 
+  /// Those that are there.
+  [[nodiscard]] std::vector<std::string> files() const { return side_files_.files(); }
+
  private:
   [[nodiscard]] SideFiles::Found find_file(const std::string& name) const;
   void read(const SideFiles::Found& file, std::vector<std::string>& notes);

@@ -162,4 +162,42 @@ trouble "--size: a stream has its own size" "$kage" info plain.kage --size 32x24
 trouble "no such file" "$kage" info none.gltf
 expect 0 "$kage" info plain.kage
 grep -q 'checksums right' stdout || fail "info of a stream says something else"
+# ---- no output overwrites what is read ----
+over="this output would overwrite an input"
+mkdir over
+quad over/quad.gltf '{"images": [{"uri": "paint%20.png"}]}' quad.bin
+cp data.bin over/quad.bin
+echo picture >"over/paint .png"
+printf 'mtllib quad.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >over/quad.obj
+printf 'newmtl m\nKd 1 0 0\n' >over/quad.mtl
+echo 'Z_BITS: 24' >over/core.yaml
+expect 0 "$kage" vectors courtyard --size 8x6 --frames 1 --sound-only --config default --no-rtl --out over/pack
+sums() { (cd over && find . -type f -exec sha256sum {} + | sort); }
+sums >before
+for to in --json --csv --store; do
+  trouble "over/quad.obj: $over" "$kage" sweep over/quad.obj "${small[@]}" $to ./over/quad.obj
+  trouble "over/core.yaml: $over" "$kage" sweep courtyard "${small[@]}" --config over/core.yaml $to ./over/core.yaml
+  trouble "over/quad.mtl: $over" "$kage" sweep over/quad.obj "${small[@]}" --resume $to over/quad.mtl
+done
+for of in quad.obj quad.mtl; do
+  trouble "over/$of: $over" "$kage" plan over/quad.obj --json over/$of
+  trouble "over/$of: $over" "$kage" model --plan over/quad.obj --json over/$of
+  for to in json save plot; do trouble "over/$of: $over" "$kage" order over/quad.obj --$to over/$of; done
+done
+for of in quad.gltf quad.bin "paint .png"; do
+  for command in info render "explain --pixel 1,1" "stream --out new.kage" "vectors --sizes"; do
+    # shellcheck disable=SC2086
+    trouble "over/$of: $over" "$kage" $command over/quad.gltf --json "over/$of"
+  done
+  for to in json junit; do trouble "over/$of: $over" "$kage" cosim over/quad.gltf "${small[@]}" --$to "over/$of"; done
+  trouble "over/$of: $over" "$kage" stream over/quad.gltf --out "over/$of"
+done
+for of in over/pack/*; do
+  trouble "$of: $over" "$kage" vectors --check over/pack --json "$of"
+  trouble "$of: $over" "$kage" vectors --compare over/pack over/pack/pixels.hex --json "$of"
+done
+cp over/pack/pixels.hex got
+trouble "got: $over" "$kage" vectors --compare over/pack got --json ./got
+sums | cmp - before || fail "an input was overwritten"
+
 done_testing
