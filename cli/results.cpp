@@ -12,6 +12,7 @@
 #include <set>
 
 #include "file/real_path.hpp"
+#include "json/json_text.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cli {
@@ -47,7 +48,7 @@ void check_json(const Options& options) {
 }
 
 void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text) {
-  const std::string json = document.json().dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  const std::string json = json_text(document.json(), 2) + "\n";
   if (!options.json.empty() && !json_only(options)) write_text(files, options.json, json);
   files.place();
   const std::string& said = json_only(options) ? json : text;

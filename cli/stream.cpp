@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "command.hpp"
+#include "json/json_text.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "progress.hpp"
@@ -65,7 +66,7 @@ int run(const Options& o) {
   Json origin;
   origin["scene"] = source.name();
   origin["polyhedra"] = to_json(source.ways());
-  if (!origin["polyhedra"].is_null()) writer.origin(origin.dump(-1, ' ', false, Json::error_handler_t::replace));
+  if (!origin["polyhedra"].is_null()) writer.origin(json_text(origin));
   TempFiles files;
   kage::finish(writer, files);
   Json j;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "json/json_text.hpp"
 #include "number/counted.hpp"
 
 namespace kage::cli {
@@ -47,14 +48,14 @@ std::string line_of(const Json& row, bool placed) {
   const std::string clock =
       placed ? fmt::format(" {:>6} {:>7}", number(area.at("fmax_mhz"), 1), number(s.at("frames_per_second"), 1)) : "";
   return fmt::format("{}{:<30} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
-                     row.at("pareto").get<bool>() ? "*" : " ", name, a.at("pixels").dump(),
-                     a.at("visible_wrong").dump(), a.at("shadow_wrong").dump(), a.at("gross_wrong").dump(),
+                     row.at("pareto").get<bool>() ? "*" : " ", name, json_text(a.at("pixels")),
+                     json_text(a.at("visible_wrong")), json_text(a.at("shadow_wrong")), json_text(a.at("gross_wrong")),
                      number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 2),
                      a.at("psnr").is_null() ? "equal" : number(a.at("psnr"), 1), number(a.at("flip"), 4),
                      number(s.at("golden_ns_per_pixel"), 1), number(s.at("rtl_cycles_per_pixel"), 3),
                      s.at("rtl_cycles_from") == "cosim" ? " " : "~", number(s.at("cosim_frames_per_second"), 2),
                      number(s.at("words_per_frame"), 0), number(area.at("luts"), 0),
-                     area.at("counted").get<bool>() ? " " : "~", area.at("bits_per_pixel").dump(), clock);
+                     area.at("counted").get<bool>() ? " " : "~", json_text(area.at("bits_per_pixel")), clock);
 }
 
 using Column = std::function<void(const std::string& name, const Json& value)>;
@@ -67,7 +68,7 @@ void columns(const std::string& name, const Json& value, const Column& use) {
 
 std::string quoted_csv(const Json& value) {
   if (value.is_null()) return "";
-  if (!value.is_string()) return value.dump();
+  if (!value.is_string()) return json_text(value);
   std::string out = "\"";
   for (const char c : value.get<std::string>()) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";

@@ -9,6 +9,7 @@
 
 #include "command.hpp"
 #include "json/foreign_json.hpp"
+#include "json/json_text.hpp"
 #include "kage/error.hpp"
 #include "signals.hpp"
 #include "standard_files.hpp"
@@ -31,7 +32,7 @@ Json look_json(const trade::SweepPoint& p) {
 
 /// A scene's name as rows, pages and plots have it: what of it is no UTF-8 is replaced, as in every JSON.
 std::string readable(const std::string& name) {
-  return parse_json<Json>(Json(name).dump(-1, ' ', false, Json::error_handler_t::replace), name).get<std::string>();
+  return parse_json<Json>(json_text(Json(name)), name).get<std::string>();
 }
 
 Json row_of(const SweptScene& s, std::size_t point, const Json& measured) {
@@ -208,7 +209,8 @@ void Sweep::make(Entry& e) {
     return;
   }
   const Json measured = s.runner->run(e.point, place.words);
-  store_.keep_run(place.key, s.scene->name(), trade::text_of(s.points[e.point]), made_of(s, e.point), measured.dump());
+  store_.keep_run(place.key, s.scene->name(), trade::text_of(s.points[e.point]), made_of(s, e.point),
+                  json_text(measured));
   ++measured_;
   e.row = row_of(s, e.point, measured);
   told_.done(true);

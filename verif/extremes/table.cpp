@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "json/json_text.hpp"
+
 namespace kage::verif {
 namespace {
 
@@ -95,7 +97,7 @@ std::string table_json(const CampaignState& state, const CampaignOptions& option
          {"failed_case", r.failed_case},
          {"found", r.kept.string()}});
   }
-  return all.dump(2) + "\n";
+  return json_text(all, 2) + "\n";
 }
 
 }  // namespace kage::verif

@@ -5,6 +5,7 @@
 #include "file/read_file.hpp"
 #include "fuzz/target.hpp"
 #include "json/foreign_json.hpp"
+#include "json/json_text.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"
@@ -51,7 +52,7 @@ std::vector<std::string> record_seeds() {
       s.frame_seconds.emplace_back(0.5);
     }
     if (several) record.page = "report.html";
-    seeds.push_back(report::to_json(record).dump());
+    seeds.push_back(json_text(report::to_json(record)));
   }
   return seeds;
 }
@@ -83,7 +84,7 @@ std::vector<std::string> pack_seeds() {
 void run_json(Bytes bytes) {
   const auto json = parse_json<nlohmann::ordered_json>(text_of(bytes), "j.json");
   const std::string text = json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::strict);
-  require(parse_json<nlohmann::ordered_json>(text, "again").dump() == text, "what is written is read as it was");
+  require(json_text(parse_json<nlohmann::ordered_json>(text, "again")) == text, "what is written is read as it was");
   (void)json_member(text_of(bytes), "k", "j.json");
 }
 

@@ -33,6 +33,8 @@ refuse "a token's kind and length are read by kind_of(), Layout::words_of()" '(w
 refuse 'a value of an event has a name (stage_values.hpp)' 'value\[[0-9]+\]' 'a.value[11] != 0' verif/cosim cli
 refuse 'what matters of an event has names' 'cares *(=|\|=|&=)[^=]*0b' 'e.cares = blank ? 0b0110111 : 0b1;' verif/cosim
 refuse 'the width of a depth has a name: DepthBits, derived::depth_bits()' 'Z_BITS \+ Z_FRAC \+ 2|z_bits \+ [a-z_.]*z_frac \+ 2' 'c.z_bits + c.z_frac + 2' ref rtl verif cli
+# shellcheck disable=SC2086
+refuse 'JSON is written by json_text() of ref/json: of names that are not UTF-8 dump() throws' '\.dump\((-?[0-9]*)\)' 'out << whole.dump(2);' $json_rooms
 code='ref verif/cosim verif/stimulus verif/mutants cli' # all but tests and the second opinions
 # shellcheck disable=SC2086
 {

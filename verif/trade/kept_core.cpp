@@ -10,6 +10,7 @@
 #include "cosim/model/trust.hpp"
 #include "file/read_file.hpp"
 #include "file/temp_file.hpp"
+#include "json/json_text.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 
@@ -43,7 +44,7 @@ fs::path kept_core_file(const char* cache, const Config& config, const std::vect
 
 void keep_core(const fs::path& path, const nlohmann::ordered_json& found) {
   TempFiles files;
-  write_text(files, path.string(), found.dump() + "\n");
+  write_text(files, path.string(), json_text(found) + "\n");
   files.commit();
 }
 

@@ -14,6 +14,7 @@
 #include "cosim/model/sha256.hpp"
 #include "cosim/report/html.hpp"
 #include "image/save.hpp"
+#include "json/json_text.hpp"
 #include "kage/pipeline.hpp"
 #include "number/counted.hpp"
 #include "trade/sweep_accuracy.hpp"
@@ -120,7 +121,7 @@ std::string stem_of(const Json& row, std::set<std::string>& taken) {
   std::string stem = fs::path(row.at("scene").get<std::string>()).stem().string();
   for (char& c : stem)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '-' && c != '.') c = '_';
-  stem += fmt::format("_{}x{}", row.at("look").at("width").dump(), row.at("look").at("height").dump());
+  stem += fmt::format("_{}x{}", json_text(row.at("look").at("width")), json_text(row.at("look").at("height")));
   std::string out = stem;
   for (int n = 2; !taken.insert(out).second; ++n) out = fmt::format("{}_{}", stem, n);
   return out;

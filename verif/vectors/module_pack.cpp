@@ -10,6 +10,7 @@
 #include "cosim/model/sha256.hpp"
 #include "file/output_file.hpp"
 #include "file/read_file.hpp"
+#include "json/json_text.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
 #include "kage/stream.hpp"
@@ -231,7 +232,7 @@ void PortsRecord::write(const std::filesystem::path& folder, TempFiles& files, c
         kModuleBench, kModuleHeader));
   });
   manifest["license"] = "Apache-2.0";
-  write_text(files, (folder / kManifest).string(), manifest.dump(2) + "\n");
+  write_text(files, (folder / kManifest).string(), json_text(manifest, 2) + "\n");
 }
 
 }  // namespace kage::vectors

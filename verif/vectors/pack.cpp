@@ -8,6 +8,7 @@
 #include <functional>
 #include <numeric>
 
+#include "json/json_text.hpp"
 #include "kage/defs.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
@@ -55,13 +56,13 @@ class Reader {
     try {
       return at(key).get<T>();
     } catch (const Json::exception&) {
-      throw Error(fmt::format("{}: {} is {}, which cannot be", where_, key, at(key).dump()));
+      throw Error(fmt::format("{}: {} is {}, which cannot be", where_, key, json_text(at(key))));
     }
   }
   [[nodiscard]] std::uint64_t number(const char* key, std::uint64_t most) const {
     const Json& j = at(key);
     if (!j.is_number_unsigned() || j.get<std::uint64_t>() > most)
-      throw Error(fmt::format("{}: {} is {}, not a whole number of 0 .. {}", where_, key, j.dump(), most));
+      throw Error(fmt::format("{}: {} is {}, not a whole number of 0 .. {}", where_, key, json_text(j), most));
     return j.get<std::uint64_t>();
   }
   [[nodiscard]] std::vector<Reader> list(const char* key) const {

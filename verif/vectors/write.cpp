@@ -8,6 +8,7 @@
 #include "cosim/model/sha256.hpp"
 #include "file/output_file.hpp"
 #include "file/read_file.hpp"
+#include "json/json_text.hpp"
 #include "kage/core.hpp"
 #include "kage/paths.hpp"
 #include "vectors/texts.hpp"
@@ -144,7 +145,7 @@ void PackWriter::finish(Pack& pack) {
   put(kCHeader, c_header(pack, d.signatures));
   put(kReadme, readme(pack));
   put(kBench, read_file(data_directory() / "verif/vectors/bench" / kBench));
-  if (d.files != nullptr) write_text(*d.files, (d.folder / kManifest).string(), to_json(pack).dump(2) + "\n");
+  if (d.files != nullptr) write_text(*d.files, (d.folder / kManifest).string(), json_text(to_json(pack), 2) + "\n");
 }
 
 }  // namespace kage::vectors

@@ -16,6 +16,7 @@
 #include "cosim/model/trust.hpp"
 #include "file/output_file.hpp"
 #include "json/foreign_json.hpp"
+#include "json/json_text.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cosim {
@@ -99,7 +100,7 @@ void ModelCache::keep(const std::string& key, const fs::path& built, const Json&
   fs::path text = built;
   text.replace_extension(".json");
   OutputFile out(text, manifest(key).string());
-  out << whole.dump(2) << '\n';
+  out << json_text(whole, 2) << '\n';
   out.close();
   std::error_code ec;
   fs::permissions(text, fs::perms::owner_read | fs::perms::owner_write, ec);

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "file/read_file.hpp"
+#include "json/json_text.hpp"
 #include "kage/defs.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
@@ -61,7 +62,7 @@ std::string escaped(std::string_view text) {
 
 std::string script_text(const Json& json) {
   std::string text;
-  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+  for (const char c : json_text(json)) {
     if (c == '<')
       text += "\\u003c";
     else

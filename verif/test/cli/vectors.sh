@@ -215,4 +215,12 @@ trouble 'file' "$kage" vectors courtyard --out file
 trouble 'nowhere/manifest.json: is not there: no pack' "$kage" vectors --check nowhere
 no_leftovers
 
+# ---- names that are not UTF-8 ----
+bytes=$'\xff\xfe'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >"a$bytes.obj"
+echo 'Z_BITS: 24' >"c$bytes.yaml"
+expect 0 "$kage" vectors "a$bytes.obj" --size 8x6 --frames 1 --config "c$bytes.yaml" --no-rtl --out bytes
+expect 0 "$kage" vectors --check bytes --json bytes.json
+json bytes/manifest.json 'j["config_name"] == "c\ufffd\ufffd.yaml"'
+
 done_testing
