@@ -145,7 +145,7 @@ void check_stores(const SweepCommand& o) {
   for (const std::string& other : o.take) trade::SweepStore::check(other);
   if (o.list) return;
   check_output(o.store);
-  if (o.resume || !std::filesystem::exists(o.store)) return;
+  if (o.resume || !std::filesystem::exists(o.store) || trade::SweepStore::is_empty(o.store)) return;
   trade::SweepStore::check(o.store);
   throw Error(fmt::format("{}: there is a store already: --resume goes on with it, --store names another", o.store));
 }

@@ -288,10 +288,15 @@ void SweepStore::keep_clocks(const std::string& key, const ClockSample& sample) 
   });
 }
 
+bool SweepStore::is_empty(const std::filesystem::path& file) {
+  std::error_code ec;
+  return std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) == 0;
+}
+
 void SweepStore::check(const std::filesystem::path& file) {
   std::error_code ec;
   if (!std::filesystem::exists(file, ec)) throw Error(fmt::format("{}: no such file", file.string()));
-  if (std::filesystem::is_regular_file(file, ec) && std::filesystem::file_size(file, ec) == 0)
+  if (is_empty(file))
     throw Error(fmt::format("{}: no store of kage sweep: it is empty", file.string()));
   Data d(file);
   d.open(0);

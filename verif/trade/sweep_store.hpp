@@ -49,6 +49,9 @@ class SweepStore {
   /// among what may be. It is left as it is.
   static void check(const std::filesystem::path& file);
 
+  /// Whether a file is there and has no bytes: what SQLite makes first, and a sweep that is killed at once leaves.
+  static bool is_empty(const std::filesystem::path& file);
+
   /// Takes all rows of another store that are not here. Returns how many runs those were. Throws Error, and takes none,
   /// if one of the other's is not what was kept.
   int absorb(const std::filesystem::path& other);

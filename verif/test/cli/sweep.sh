@@ -64,6 +64,11 @@ cmp a.csv b.csv || fail "beside --json - the CSV is another"
 [ ! -e - ] || fail "a file is called -"
 
 # What is kept is not measured again; without --resume a store is not touched.
+# A sweep that was killed at once leaves a file of no bytes, which is no store yet.
+: >at_once.sqlite
+expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SHADE_FRAC=3 --store at_once.sqlite
+grep -q "kept in at_once.sqlite" stdout || fail "$(tail -2 stdout)"
+trouble "at_once.sqlite: there is a store already" "$kage" sweep courtyard "${quick[@]}" --store at_once.sqlite
 trouble "sweep.sqlite: there is a store already: --resume goes on with it" "$kage" sweep courtyard "${quick[@]}"
 expect 0 "$kage" sweep courtyard "${quick[@]}" "${axes[@]}" --resume --json again.json
 tail -1 stdout | grep -qxF '# 0 measured now, 7 others were in sweep.sqlite' || fail "$(tail -1 stdout)"
