@@ -6,6 +6,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "json/json_text.hpp"
@@ -59,11 +60,18 @@ class Reader {
       throw Error(fmt::format("{}: {} is {}, which cannot be", where_, key, json_text(at(key))));
     }
   }
-  [[nodiscard]] std::uint64_t number(const char* key, std::uint64_t most) const {
-    const Json& j = at(key);
+  [[nodiscard]] std::uint64_t number(const char* key, std::uint64_t most) const { return number(key, at(key), most); }
+  [[nodiscard]] std::uint64_t number(const char* key, const Json& j, std::uint64_t most) const {
     if (!j.is_number_unsigned() || j.get<std::uint64_t>() > most)
       throw Error(fmt::format("{}: {} is {}, not a whole number of 0 .. {}", where_, key, json_text(j), most));
     return j.get<std::uint64_t>();
+  }
+  [[nodiscard]] std::vector<std::size_t> numbers(const char* key, std::uint64_t most) const {
+    const Json& list = at(key);
+    if (!list.is_array()) throw Error(fmt::format("{}: {} is no list", where_, key));
+    std::vector<std::size_t> all;
+    for (const Json& j : list) all.push_back(number(key, j, most));
+    return all;
   }
   [[nodiscard]] std::vector<Reader> list(const char* key) const {
     const Json& j = at(key);
@@ -107,10 +115,23 @@ PackFrame frame_of(const Reader& r) {
     f.status.token = static_cast<std::uint32_t>(r.number("error_token", kAll));
     f.status.unit = static_cast<std::uint32_t>(r.number("error_unit", kAll));
   }
-  if (!r.at("source_lines").is_null()) f.source_lines = r.get<std::vector<std::size_t>>("source_lines");
+  if (!r.at("source_lines").is_null()) f.source_lines = r.numbers("source_lines", most);
   f.settles = r.get<bool>("registers_are_read");
   if (!r.at("clocks").is_null()) f.clocks = r.number("clocks", most);
   return f;
+}
+
+/// What the manifest says of all frames together is what they come to.
+void check_sums(const Reader& r, const Pack& pack) {
+  const auto check = [&](const char* key, std::uint64_t come_to) {
+    const std::uint64_t said = r.number(key, ~std::uint64_t{0});
+    if (said != come_to)
+      throw Error(fmt::format("{}: {} is {}, and the frames come to {}", r.where(), key, said, come_to));
+  };
+  check("beats", pack.beats());
+  check("lines", pack.lines());
+  check("pixels", pack.pixels());
+  if (pack.clocks() != 0 || !r.at("clocks").is_null()) check("clocks", pack.clocks());
 }
 
 }  // namespace
@@ -227,13 +248,16 @@ Pack pack_of(const Json& manifest, const std::string& where) {
   const Reader config(r.at("config"), where + ": config");
   for (const ParamInfo& info : kParams) {
     const std::string name(info.name);
-    p.config.*info.member = config.has(name.c_str()) ? config.get<int>(name.c_str()) : info.default_value;
+    constexpr auto most = static_cast<std::uint64_t>(std::numeric_limits<int>::max());
+    p.config.*info.member =
+        config.has(name.c_str()) ? static_cast<int>(config.number(name.c_str(), most)) : info.default_value;
   }
   validate(p.config, where + ": config");
   p.seed = r.number("seed", ~std::uint64_t{0});
   p.made_by = r.get<std::string>("made_by");
   if (!r.at("rtl_agrees").is_null()) p.rtl_agrees = r.get<bool>("rtl_agrees");
   for (const Reader& f : r.list("frames")) p.frames.push_back(frame_of(f));
+  check_sums(r, p);
   for (const Reader& f : r.list("registers"))
     p.reads.push_back(
         {f.number("frame", kAll), f.get<std::string>("name"), static_cast<std::uint32_t>(f.number("address", 0xFF)),

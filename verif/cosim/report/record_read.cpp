@@ -9,6 +9,7 @@
 
 #include "cosim/report/record_keys.hpp"
 #include "cosim/report/run_record.hpp"
+#include "kage/config.hpp"
 #include "kage/error.hpp"
 
 namespace kage::report {
@@ -92,6 +93,7 @@ void take(Config& to, const Json& j, const std::string& place) {
     ++known;
     take(to.*(p.member), *found, fmt::format("{}/{}", place, name));
   }
+  validate(to, place);
   if (known == j.size()) return;
   for (const auto& [name, value] : j.items())
     if (std::none_of(kParams.begin(), kParams.end(), [&n = name](const ParamInfo& p) { return p.name == n; }))

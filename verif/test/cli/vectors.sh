@@ -179,7 +179,26 @@ PY
 broken "b/signatures.hex: is not what the pack's frames come to" again signatures.hex '2s/./5/'
 broken "b/registers.hex: is not what the pack's frames come to" again registers.hex '2s/.$/9/'
 broken "b/pixels.hex: is not what the pack's frames come to" again pixels.hex '2s/.$/9/'
-broken 'its frames have' sed -i '0,/"beats": [0-9]*,/s//"beats": 999999999999,/; 0,/      "beats": [0-9]*,/s//      "beats": 99999999999,/' manifest.json
+broken 'beats is 999999999999, and the frames come to' sed -i '0,/"beats": [0-9]*,/s//"beats": 999999999999,/; 0,/      "beats": [0-9]*,/s//      "beats": 99999999999,/' manifest.json
+# said EXPRESSION: the manifest with its content as m changed.
+said() { python3 -c "import json; m=json.load(open('manifest.json')); $1; json.dump(m, open('manifest.json', 'w'))"; }
+broken 'its frames have' said "m['frames'][0]['beats']+=1000; m['beats']+=1000"
+while IFS='|' read -r change text; do broken "b/manifest.json: $text" said "$change"; done <<'CASES'
+m['config']['UNITS']=2**32|config: UNITS is 4294967296, not a whole number of 0 ..
+m['config']['LANES']=2**32+1|config: LANES is 4294967297, not a whole number of 0 ..
+m['config']['LANES']=1.5|config: LANES is 1.5, not a whole number
+m['config']['Z_BITS']=16.9|config: Z_BITS is 16.9, not a whole number
+m['config']['Z_BITS']=True|config: Z_BITS is true, not a whole number
+m['config']['Z_BITS']=99|config: Z_BITS is 99, legal are
+m['beats']=-7|beats is -7, not a whole number
+m['pixels']='many'|pixels is "many", not a whole number
+m['pixels']+=1|pixels is
+m['lines']=[]|lines is [], not a whole number
+m['lines']=None|lines is null, not a whole number
+m['clocks']={}|clocks is {}, not a whole number
+m['clocks']=1|clocks is 1, and the frames come to
+m['frames'][0]['source_lines']=[-1]|frames[0]: source_lines is -1, not a whole number
+CASES
 broken 'the golden core ends it with' sed -i '0,/"error": "ORDER"/s//"error": "RANGE"/' manifest.json
 
 # ---- bad requests ----

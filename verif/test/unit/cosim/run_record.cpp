@@ -277,4 +277,7 @@ TEST_CASE("a report of an earlier or a later kage is read as far as its keys go"
   j = good;
   j["config"]["LATER"] = 1;
   CHECK(refused(j) == "LATER is no parameter of this kage (config/LATER)");
+  j = good;
+  j["config"]["Z_BITS"] = 99;
+  CHECK(refused(j).starts_with("config: Z_BITS is 99, legal are "));
 }
