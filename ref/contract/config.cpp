@@ -11,6 +11,8 @@
 #include <cctype>
 #include <filesystem>
 #include <set>
+#include <sstream>
+#include <vector>
 
 #include "contract/config_text.hpp"
 #include "file/meant.hpp"
@@ -92,10 +94,26 @@ std::string no_yaml(const YAML::Exception& e) {
   return "not YAML: a line is PARAMETER: value";
 }
 
+/// The line, from 1, of the mark behind the first document of a text.
+int second_document(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line;
+  bool begun = false;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    if (line.starts_with("...") || (line.starts_with("---") && begun)) return number;
+    begun = begun || (!line.empty() && line.front() != '#' && line.front() != '%');
+  }
+  return 1;
+}
+
 /// The values of a text; `where` opens the message of an Error. yaml-cpp keeps a limit of depth itself.
 YAML::Node parsed_yaml(const std::string& text, const std::string& where) {
   try {
-    return YAML::Load(text);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    if (documents.size() > 1)
+      throw Error(fmt::format("{}: line {}: a second document begins, and a configuration is one", where,
+                              second_document(text)));
+    return documents.empty() ? YAML::Node() : documents.front();
   } catch (const YAML::DeepRecursion& e) {
     throw Error(fmt::format("{}: line {}: lists nest too deeply", where, e.mark.line + 1));
   } catch (const YAML::Exception& e) {

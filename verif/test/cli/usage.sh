@@ -69,6 +69,8 @@ no_yaml() { # TEXT LINE_AND_WORDS
 }
 no_yaml 'LANES: [1, 2\nX_BITS: 3\n' 'line 2: a [ has no ]'
 no_yaml 'LANES: {a: 2\nX_BITS: 3\n' 'line 2: a { has no }'
+no_yaml 'LANES: 4\n---\nLANES: 8\n' 'line 2: a second document begins, and a configuration is one'
+no_yaml '# mine\n---\nLANES: 4\n...\ngarbage\n' 'line 4: a second document begins, and a configuration is one'
 no_yaml 'LANES: 4: 5\n' 'line 1: not YAML: a line is PARAMETER: value'
 no_yaml 'LANES: *x\n' 'line 1: * wants the name of an anchor, and there is none of this name'
 no_yaml 'LANES: "4\n' 'line 1: LANES: not a whole number'
