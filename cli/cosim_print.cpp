@@ -21,25 +21,25 @@ std::string pictures_of(const report::SceneRecord& scene, const std::string& fol
 }
 
 void print_difference(const report::DifferenceRecord& d) {
-  fmt::print("first difference: {}\n", d.text);
+  fmt::print("first difference: {}\n", shown(d.text));
   if (d.divergence)
-    fmt::print("first divergence: {}\n", d.divergence->text);
+    fmt::print("first divergence: {}\n", shown(d.divergence->text));
   else if (d.no_divergence)
-    fmt::print("{}\n", *d.no_divergence);
+    fmt::print("{}\n", shown(*d.no_divergence));
 }
 
 void print_waveform(const report::DifferenceRecord& d) {
   if (d.waveform && d.divergence)
-    fmt::print("waveform: {}; {}\n", *d.waveform, gtkwave_line(d.divergence->save_file.value_or("")));
+    fmt::print("waveform: {}; {}\n", shown(*d.waveform), shown(gtkwave_line(d.divergence->save_file.value_or(""))));
 }
 
 /// The frame that was kept, and how to run it again.
 void print_kept(const report::KeptRecord& kept) {
-  fmt::print("{}: {}: {}, {}, {} wide, {} of {}\n", kept.ahead ? "the frame right ahead of it" : "the frame", kept.file,
-             counted(kept.lines, "line"), counted(kept.tokens, "token"), counted(kept.width, "pixel"), kept.words,
-             counted(kept.words_before, "word"));
+  fmt::print("{}: {}: {}, {}, {} wide, {} of {}\n", kept.ahead ? "the frame right ahead of it" : "the frame",
+             shown(kept.file), counted(kept.lines, "line"), counted(kept.tokens, "token"), counted(kept.width, "pixel"),
+             kept.words, counted(kept.words_before, "word"));
   if (kept.takes) fmt::print("alone, on a new core, it comes out the same: it takes {}\n", *kept.takes);
-  if (kept.alone || kept.in_place) fmt::print("that frame again: {}\n", kept.again);
+  if (kept.alone || kept.in_place) fmt::print("that frame again: {}\n", shown(kept.again));
 }
 
 }  // namespace
@@ -97,8 +97,8 @@ void print_report(const report::SceneRecord& s, const std::string& who, const st
     print_waveform(*s.first_difference);
   }
   if (s.kept) print_kept(*s.kept);
-  if (!s.pictures.empty()) fmt::print("pictures: {}\n", pictures_of(s, folder));
-  if (s.page) fmt::print("report: {}\n", *s.page);
+  if (!s.pictures.empty()) fmt::print("pictures: {}\n", shown(pictures_of(s, folder)));
+  if (s.page) fmt::print("report: {}\n", shown(*s.page));
 }
 
 }  // namespace kage::cli

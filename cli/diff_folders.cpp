@@ -134,7 +134,7 @@ std::string left_out(const std::vector<std::string>& names) {
   if (names.empty()) return "";
   constexpr std::size_t kShown = 3;
   std::string text;
-  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i) text += (i == 0 ? "" : ", ") + shown(names[i]);
   if (names.size() > kShown) text += fmt::format(" and {} more", names.size() - kShown);
   return fmt::format("not compared: {}\n", text);
 }
@@ -164,10 +164,10 @@ std::string verdict(const DiffCommand& o, const Totals& totals, const FolderPair
   const std::uint64_t different = totals.different + totals.different_files;
   std::string text = fmt::format("{}: {} compared", different == 0 ? "same" : "different", compared(totals));
   if (different != 0) text += fmt::format(", {} {}", different, different == 1 ? "differs" : "differ");
-  if (totals.only_a != 0) text += fmt::format(", {} only in {}", totals.only_a, o.a);
-  if (totals.only_b != 0) text += fmt::format(", {} only in {}", totals.only_b, o.b);
+  if (totals.only_a != 0) text += fmt::format(", {} only in {}", totals.only_a, shown(o.a));
+  if (totals.only_b != 0) text += fmt::format(", {} only in {}", totals.only_b, shown(o.b));
   text += "\n" + left_out(pair.left_out);
-  if (!o.out.empty() && totals.viewed != 0) text += fmt::format("heat maps and blink pictures: {}\n", o.out);
+  if (!o.out.empty() && totals.viewed != 0) text += fmt::format("heat maps and blink pictures: {}\n", shown(o.out));
   return text;
 }
 
@@ -193,8 +193,8 @@ int diff_two_folders(const DiffCommand& o) {
     progress.show(fmt::format("file {}/{}: {}", ++number, pair.files.size(), entry.name));
     const Stopwatch watch;
     if (!entry.in_a || !entry.in_b) {
-      const std::string text = fmt::format("different: only in {}", entry.in_a ? o.a : o.b);
-      lines += fmt::format("{}: {}\n", entry.name, text);
+      const std::string text = fmt::format("different: only in {}", shown(entry.in_a ? o.a : o.b));
+      lines += fmt::format("{}: {}\n", shown(entry.name), text);
       junit.fail(entry.name, watch.seconds(), text);
       totals.add_missing(entry);
       continue;
@@ -206,7 +206,7 @@ int diff_two_folders(const DiffCommand& o) {
       if (text.empty()) {
         junit.pass(entry.name, watch.seconds());
       } else {
-        lines += fmt::format("{}: {}\n", entry.name, line);
+        lines += fmt::format("{}: {}\n", shown(entry.name), line);
         junit.fail(entry.name, watch.seconds(), line, text);
       }
       continue;
@@ -219,7 +219,7 @@ int diff_two_folders(const DiffCommand& o) {
       junit.pass(entry.name, watch.seconds());
       continue;
     }
-    lines += fmt::format("{}: {}\n", entry.name, describe(r));
+    lines += fmt::format("{}: {}\n", shown(entry.name), shown(describe(r)));
     junit.fail(entry.name, watch.seconds(), describe(r), details(r));
     ++totals.viewed;
     if (!o.out.empty()) views.save(files, entry.name, seen);
@@ -266,14 +266,14 @@ struct Blessed {
   /// The lines, and how many files of each sort there are.
   [[nodiscard]] std::string text(const DiffCommand& o) const {
     std::string all = lines;
-    all += fmt::format("{}{}: {} the same, {} changed, {} added, {} {}", o.b, o.dry_run ? " (nothing is done)" : "",
-                       unchanged, changed.size(), added.size(), o.prune ? removed.size() : missing.size(),
-                       o.prune ? "removed" : "missing");
+    all += fmt::format("{}{}: {} the same, {} changed, {} added, {} {}", shown(o.b),
+                       o.dry_run ? " (nothing is done)" : "", unchanged, changed.size(), added.size(),
+                       o.prune ? removed.size() : missing.size(), o.prune ? "removed" : "missing");
     if (o.prune && !missing.empty()) all += fmt::format(", {} missing", missing.size());
     all += '\n';
     if (!missing.empty())
       all += o.prune ? "what is neither picture nor stream stays\n"
-                     : fmt::format("what is missing in {} stays; --prune removes it\n", o.a);
+                     : fmt::format("what is missing in {} stays; --prune removes it\n", shown(o.a));
     return all;
   }
 
@@ -291,7 +291,8 @@ struct Blessed {
                              : entry.what == What::added ? "added"
                              : goes                      ? "removed"
                                                          : "missing";
-    lines += fmt::format("{}: {}{}{}\n", word, entry.name, entry.reason.empty() ? "" : ": ", entry.reason);
+    lines +=
+        fmt::format("{}: {}{}{}\n", word, shown(entry.name), entry.reason.empty() ? "" : ": ", shown(entry.reason));
   }
 };
 

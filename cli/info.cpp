@@ -37,13 +37,13 @@ struct InfoCommand : Options {
 /// neither.
 std::string describe_way(const report::WayRecord& w) {
   std::string text =
-      fmt::format("{}, {}: ", w.object,
+      fmt::format("{}, {}: ", shown(w.object),
                   w.components == 1 ? fmt::format("component {}", w.component)
                                     : fmt::format("components {} to {}", w.component, w.component + w.components - 1));
   if (w.unit_frames > 0) text += "by segments in " + counted(w.unit_frames, "frame") + (w.span_frames > 0 ? ", " : "");
   if (w.span_frames > 0) text += "by spans in " + counted(w.span_frames, "frame");
   if (w.unit_frames == 0 && w.span_frames == 0) text += "not seen";
-  if (w.why) text += ": " + *w.why;
+  if (w.why) text += ": " + shown(*w.why);
   return text;
 }
 
@@ -173,7 +173,7 @@ int describe_stream(const InfoCommand& o) {
   if (clocks) j["clocks"] = to_json(clocks->config(), clocks->sums());
   write_json(o, {"kage.info-stream/1", j});
   if (!json_only(o)) {
-    fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", o.input, counted(file.frame_count(), "frame"),
+    fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", shown(o.input), counted(file.frame_count(), "frame"),
                unchecked > 0
                    ? fmt::format(" ({} in sections PORT: these may break rules, and are not checked)", unchecked)
                    : "",

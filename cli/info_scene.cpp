@@ -117,14 +117,14 @@ std::string of_these(const Json& j, const char* key, const char* text) {
 void print_reason(const Json& first, const char* what) {
   if (first.is_null()) return;
   fmt::print("  not {}: first component {}, of {}: {}\n", what, first["component"].get<std::uint64_t>(),
-             first["object"].get<std::string>(), first["why"].get<std::string>());
+             shown(first["object"].get<std::string>()), shown(first["why"].get<std::string>()));
 }
 
 void print(const Options& o, const Json& j) {
   const auto number = [](const Json& v) { return v.get<std::uint64_t>(); };
   const Json& parts = j["components"];
   const Json& materials = j["materials"];
-  fmt::print("{}: {}, {}, {}, {}\n", o.input, counted(number(j["triangles"]), "triangle"),
+  fmt::print("{}: {}, {}, {}, {}\n", shown(o.input), counted(number(j["triangles"]), "triangle"),
              fmt::format("{} {}", number(j["vertices"]), number(j["vertices"]) == 1 ? "vertex" : "vertices"),
              counted(number(j["objects"]), "object"), counted(number(j["frames"]), "frame"));
   fmt::print("components: {}, {} closed, {} closed and convex{}\n", number(parts["all"]), number(parts["closed"]),
@@ -138,7 +138,7 @@ void print(const Options& o, const Json& j) {
              j["lights"].empty() ? "" : fmt::format(" ({})", names(j["lights"])));
   fmt::print("animations: {}{}\n", number(j["animations"]),
              number(j["moving_nodes"]) == 0 ? "" : ", " + counted(number(j["moving_nodes"]), "node") + " moved");
-  for (const Json& note : j["notes"]) fmt::print("note: {}\n", note.get<std::string>());
+  for (const Json& note : j["notes"]) fmt::print("note: {}\n", shown(note.get<std::string>()));
   const std::string size = fmt::format("{}x{}", o.size.width, o.size.height);
   if (j["configurations"].empty())
     fmt::print(

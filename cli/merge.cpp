@@ -137,8 +137,8 @@ void print_shards(const report::SceneRecord& scene, const std::string& who) {
     const auto& d = shard.first_difference;
     if (!d) continue;
     const std::string begin = fmt::format("{}shard {}/{}, first ", who, shard.number.index, shard.number.count);
-    fmt::print("{}difference: {}\n", begin, d->text);
-    if (d->divergence) fmt::print("{}divergence: {}\n", begin, d->divergence->text);
+    fmt::print("{}difference: {}\n", begin, shown(d->text));
+    if (d->divergence) fmt::print("{}divergence: {}\n", begin, shown(d->divergence->text));
   }
 }
 
@@ -187,7 +187,7 @@ int run(const MergeCommand& o) {
     if (scene.coverage) print_coverage(*scene.coverage, all.several ? scene.scene + ", " : "");
     print_shards(scene, all.several ? scene.scene + ", " : "");
   }
-  if (all.page) fmt::print("report: {}\n", *all.page);
+  if (all.page) fmt::print("report: {}\n", shown(*all.page));
   return totals.same ? kSame : kDifferent;
 }
 

@@ -116,7 +116,7 @@ std::string text_of(const OrderTree& tree, const order::Measured& m, const Order
   const OrderBuildStats& s = tree.stats();
   const auto per_face = [&](std::uint64_t n) { return ratio(static_cast<double>(n), static_cast<double>(s.faces)); };
   const auto per_node = [&](std::uint64_t n) { return ratio(static_cast<double>(n), static_cast<double>(s.nodes)); };
-  line("{}: {}, {} ({:.2f} per face), {} ({:.2f} per face), {}, depth {}\n", o.input, counted(s.faces, "face"),
+  line("{}: {}, {} ({:.2f} per face), {} ({:.2f} per face), {}, depth {}\n", shown(o.input), counted(s.faces, "face"),
        counted(s.nodes, "node"), per_face(s.nodes), counted(s.fragments, "fragment"), per_face(s.fragments),
        counted(s.splits, "split"), s.depth);
   if (s.flat != 0) line("{} without area left out\n", counted(s.flat, "polygon"));

@@ -57,8 +57,7 @@ PlannedScene open(const PlanCommand& o, const std::string& input, Progress& prog
   refuse_order_tree(input);
   refuse_pack(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
-  return planned_scene(
-      o, std::make_shared<const Scene>(load_scene(input, o)), progress);
+  return planned_scene(o, std::make_shared<const Scene>(load_scene(input, o)), progress);
 }
 
 PlanOptions options_of(const PlanCommand& o, Progress& progress) {
@@ -198,9 +197,10 @@ std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const 
 
 std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options,
                     const std::vector<std::string>& notes, const trade::MeasuredPlan* measured) {
-  std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n", fmt::join(o.inputs, " "),
-                                 counted(plan.frames, "frame"), plan.size[0], plan.size[1], name_of(o.plan.prefer));
-  for (const std::string& note : notes) text += fmt::format("# {}\n", note);
+  std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n",
+                                 shown(fmt::format("{}", fmt::join(o.inputs, " "))), counted(plan.frames, "frame"),
+                                 plan.size[0], plan.size[1], name_of(o.plan.prefer));
+  for (const std::string& note : notes) text += fmt::format("# {}\n", shown(note));
   text += error_text(plan, options, measured);
   if (options.clock)
     text += fmt::format(
@@ -329,7 +329,7 @@ int run(const PlanCommand& o) {
   const trade::MeasuredPlan* pictures = measured ? &*measured : nullptr;
   finish(o, {"kage.plan/1", json_of(o, plan, notes, pictures)}, files, text_of(o, plan, options, notes, pictures));
   if (json_only(o))
-    for (const std::string& note : notes) fmt::print(stderr, "{}\n", note);
+    for (const std::string& note : notes) fmt::print(stderr, "{}\n", shown(note));
   return kSame;
 }
 

@@ -131,7 +131,7 @@ int run(const RegressCommand& o) {
   for (const std::string& note : regress.notes()) fmt::print(to, "{}\n", note);
   if (!json_only(o)) {
     print_verdicts(regress, record, true);
-    if (record.page) fmt::print("report over all runs: {}\n", *record.page);
+    if (record.page) fmt::print("report over all runs: {}\n", shown(*record.page));
   }
   if (!regress.same()) annotate_difference(o.ci.annotate, regress.different(), to);
   if (!regress.same()) return kDifferent;

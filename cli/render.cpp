@@ -83,7 +83,7 @@ int run(const RenderCommand& o) {
          notes_text(source) + (errors ? errors->text() : "") +
              fmt::format("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
                          counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
-                         and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), o.out));
+                         and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), shown(o.out)));
   if (json_only(o)) print_notes(source, o);
   return kSame;
 }

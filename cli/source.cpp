@@ -14,6 +14,7 @@
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
+#include "text.hpp"
 
 namespace kage::cli {
 
@@ -171,7 +172,7 @@ report::WayRecords Source::ways() const {
 
 std::string notes_text(const Source& source) {
   std::string text;
-  for (const std::string& note : source.notes()) text += fmt::format("{}: {}\n", source.name(), note);
+  for (const std::string& note : source.notes()) text += fmt::format("{}: {}\n", source.name(), shown(note));
   return text;
 }
 

@@ -83,7 +83,7 @@ int run(const Options& o) {
   j["notes"] = source.notes();
   const Document document("kage.stream/1", j);
   std::string text = fmt::format(
-      "{}{}: {}, {} over {}{}, {}", notes_text(source), piped(o) ? "standard output" : o.out,
+      "{}{}: {}, {} over {}{}, {}", notes_text(source), piped(o) ? "standard output" : shown(o.out),
       counted(source.frames(), "frame"), counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
       and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), counted(counts.words, "word"));
   text += o.level == Level::polygons

@@ -133,11 +133,11 @@ void announce_left_out(const std::vector<SweptScene>& scenes) {
 /// What was measured, what was taken from the store, and which files there are.
 std::string closing(const SweepCommand& o, std::size_t made, std::size_t rows, const std::string& page) {
   std::string text = fmt::format("# {} measured now, ", made);
-  text += made == rows
-              ? fmt::format("kept in {}\n", o.store)
-              : fmt::format("{} {} in {}\n", counted(rows - made, "other"), rows - made == 1 ? "was" : "were", o.store);
-  if (!file_named(o.csv).empty()) text += fmt::format("# csv: {}\n", o.csv);
-  return page.empty() ? text : text + fmt::format("# page: {}\n", page);
+  text += made == rows ? fmt::format("kept in {}\n", shown(o.store))
+                       : fmt::format("{} {} in {}\n", counted(rows - made, "other"), rows - made == 1 ? "was" : "were",
+                                     shown(o.store));
+  if (!file_named(o.csv).empty()) text += fmt::format("# csv: {}\n", shown(o.csv));
+  return page.empty() ? text : text + fmt::format("# page: {}\n", shown(page));
 }
 
 /// Throws Error where a store cannot be used: before the work, and before one is made.

@@ -5,9 +5,20 @@
 #include <cctype>
 #include <string_view>
 
+#include "file/one_line.hpp"
+
 namespace kage::cli {
 
 std::string gtkwave_line(const std::string& save_file) { return "gtkwave " + quoted(save_file); }
+
+std::string shown(const std::string& text) {
+  constexpr std::size_t kMost = 4096;
+  const bool plain = std::none_of(text.begin(), text.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return byte < 0x20 || byte == 0x7F;
+  });
+  return plain ? text : one_line(text, kMost);
+}
 
 std::string quoted(const std::string& text) {
   const auto plain = [](char c) {

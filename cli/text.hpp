@@ -13,6 +13,10 @@ namespace kage::cli {
 /// `text` as a shell reads it back.
 std::string quoted(const std::string& text);
 
+/// A name or a sentence from elsewhere, for a line that a person reads: where control characters are in it, they are
+/// gone, since a line break would begin a line of its own, which may be a command to whoever reads the output.
+std::string shown(const std::string& text);
+
 /// The command line that shows a waveform by its save file.
 std::string gtkwave_line(const std::string& save_file);
 

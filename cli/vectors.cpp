@@ -332,7 +332,7 @@ int write_pack(const VectorsCommand& o) {
     pack.rtl_agrees = true;
   }
   if (!json_only(o))
-    fmt::print("{}: {}{}, files of some {} bytes\n", o.out, counted(pack.frames.size(), "frame"),
+    fmt::print("{}: {}{}, files of some {} bytes\n", shown(o.out), counted(pack.frames.size(), "frame"),
                o.budget > 0 ? fmt::format(", {} of {} bytes for a board", bytes_for_board(pack), o.budget) : "",
                bytes_of(sizes));
   TempFiles files;
@@ -354,11 +354,11 @@ int write_pack(const VectorsCommand& o) {
   progress.clear();
   const std::string said =
       fmt::format("{}{}: {}, {} of them malformed, {}, {}, {} read, {}\nrun it: {}\n",
-                  notes_text(from.source()) + cover_text(from.covered(), from.source().frames()), o.out,
+                  notes_text(from.source()) + cover_text(from.covered(), from.source().frames()), shown(o.out),
                   counted(pack.frames.size(), "frame"), pack.malformed(), counted(pack.beats(), "beat"),
                   counted(pack.pixels(), "pixel"), counted(pack.reads.size(), "register"),
                   pack.clocks() == 0 ? std::string("clocks not counted") : counted(pack.clocks(), "clock"),
-                  (std::filesystem::path(o.out) / vectors::kReadme).string());
+                  shown((std::filesystem::path(o.out) / vectors::kReadme).string()));
   finish(o, {"kage.vectors/1", summary(pack, o.out, from.covered())}, files, said);
   return kSame;
 }
@@ -369,8 +369,8 @@ int check(const VectorsCommand& o) {
   refuse_inputs({file_named(o.json)}, vectors::files_of(o.check, pack));
   TempFiles none;
   finish(o, {"kage.vectors/1", summary(pack, o.check, std::nullopt)}, none,
-         fmt::format("{}: good: {}, configuration {}, {}, {}\n", o.check, counted(pack.frames.size(), "frame"),
-                     pack.config_name, counted(pack.pixels(), "pixel"), counted(pack.files.size(), "file")));
+         fmt::format("{}: good: {}, configuration {}, {}, {}\n", shown(o.check), counted(pack.frames.size(), "frame"),
+                     shown(pack.config_name), counted(pack.pixels(), "pixel"), counted(pack.files.size(), "file")));
   return kSame;
 }
 
@@ -387,7 +387,7 @@ std::string text_of(const vectors::CaptureVerdict& v, const vectors::Pack& pack)
   if (v.first) {
     const vectors::WrongPlace& w = *v.first;
     text += fmt::format("first difference: frame {} ({}), line {}{}, {}: expected {}, got {}\n", w.frame,
-                        pack.frames[w.frame].what, w.line, w.x ? fmt::format(", x {}", *w.x) : "", w.what,
+                        shown(pack.frames[w.frame].what), w.line, w.x ? fmt::format(", x {}", *w.x) : "", w.what,
                         value_text(v, w.expected), value_text(v, w.actual));
   }
   if (!v.remark.empty()) text += "the capture " + v.remark + "\n";

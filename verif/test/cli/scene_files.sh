@@ -200,4 +200,40 @@ cp over/pack/pixels.hex got
 trouble "got: $over" "$kage" vectors --compare over/pack got --json ./got
 sums | cmp - before || fail "an input was overwritten"
 
+# ---- no name begins a line, which may be a command to whoever reads the output ----
+evil=$'a\n::error::b\x1b[31m'
+# clean RC COMMAND...: it prints, and no line of it begins with what a name says.
+clean() {
+  expect "$@"
+  [ -s stdout ] || fail "${*:2}: prints nothing"
+  ! grep -qE $'^::error::|\x1b|\x7f' stdout || fail "${*:2}: $(grep -aE $'^::error::|\x1b' stdout | cat -v)"
+}
+mkdir evil
+quad evil/named.gltf '{"nodes": [{"mesh": 0, "name": "a\\n::error::b\\u001b[31m"}, {"camera": 0, "translation": [0, 0, 5]}]}'
+cp evil/named.gltf "evil/$evil.gltf"
+clean 0 "$kage" info evil/named.gltf
+clean 0 "$kage" info "evil/$evil.gltf"
+clean 0 "$kage" render evil/named.gltf "${small[@]}" --out "evil/$evil"
+clean 0 "$kage" plan "evil/$evil.gltf" "${small[@]}"
+clean 0 "$kage" order "evil/$evil.gltf"
+clean 0 "$kage" stream evil/named.gltf "${small[@]}" --config polyhedra --out "evil/$evil.kage"
+clean 0 "$kage" info "evil/$evil.kage"
+cp -r over/pack evil/pack
+python3 - evil/pack/manifest.json <<'PY'
+import json, sys
+m = json.load(open(sys.argv[1]))
+m["config_name"] = "a\n::error::b\x1b[31m\0"
+json.dump(m, open(sys.argv[1], "w"))
+PY
+clean 0 "$kage" vectors --check evil/pack
+mkdir evil/a evil/b
+for f in evil/a/same evil/b/same "evil/a/$evil" "evil/a/c$evil" "evil/b/d$evil" "evil/b/c$evil"; do cp "evil/$evil/named_0000.png" "$f.png"; done
+expect 0 "$kage" render courtyard "${small[@]}" --out evil/other
+cp evil/other/courtyard_0000.png "evil/b/c$evil.png"
+echo text | tee "evil/a/$evil.text" >"evil/b/$evil.text"
+clean 1 "$kage" diff evil/a evil/b
+cp -r evil/b "evil/$evil.b"
+clean 1 "$kage" diff evil/a "evil/$evil.b"
+clean 1 "$kage" diff evil/a evil/b --bless --dry-run
+
 done_testing
