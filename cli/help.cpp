@@ -2,7 +2,6 @@
 // kage help [COMMAND], and the texts that are made of the same definitions: a man page, completions for bash and zsh.
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -10,6 +9,7 @@
 #include "completion.hpp"
 #include "kage/error.hpp"
 #include "man_page.hpp"
+#include "results.hpp"
 #include "usage.hpp"
 
 namespace kage::cli {
@@ -36,8 +36,7 @@ int run(const HelpCommand& o, const CLI::App& app) {
   else
     text = app.get_formatter()->make_help(o.command.empty() ? &app : app.get_subcommand(o.command),
                                           o.command.empty() ? "kage" : "kage " + o.command, CLI::AppFormatMode::Normal);
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size())
-    throw Error("standard output: cannot be written");
+  print_whole(text);
   return kSame;
 }
 

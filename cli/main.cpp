@@ -10,6 +10,7 @@
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
 #include <system_error>
 
@@ -19,6 +20,7 @@
 #include "mapped.hpp"
 #include "module/foreign_code.hpp"
 #include "options.hpp"
+#include "results.hpp"
 #include "signals.hpp"
 #include "simd/targets.hpp"
 #include "standard_files.hpp"
@@ -133,7 +135,12 @@ int run(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    if (e.get_exit_code() == 0) {  // --help, --version
+      std::ostringstream text;
+      const int rc = app.exit(e, text, text);
+      print_whole(text.str());
+      return rc;
+    }
     return trouble(explain(app, e));
   }
   if (const std::string value = senseless_value(app); !value.empty()) return trouble(value);

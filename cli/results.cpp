@@ -10,7 +10,9 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <system_error>
 
+#include "file/plain_io.hpp"
 #include "file/real_path.hpp"
 #include "json/json_text.hpp"
 #include "kage/error.hpp"
@@ -47,14 +49,22 @@ void check_json(const Options& options) {
   check_output(options.json);
 }
 
+void print_whole(const std::string& text) {
+  if (text.empty()) return;
+  errno = 0;
+  const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+  if (!whole) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
+}
+
 void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text) {
   const std::string json = json_text(document.json(), 2) + "\n";
   if (!options.json.empty() && !json_only(options)) write_text(files, options.json, json);
   files.place();
   const std::string& said = json_only(options) ? json : text;
-  if (!said.empty()) {
-    const bool whole = std::fwrite(said.data(), 1, said.size(), stdout) == said.size() && std::fflush(stdout) == 0;
-    if (!whole) throw Error("standard output: cannot be written");
+  try {
+    print_whole(said);
+  } catch (const std::system_error& e) {
+    fail_write("standard output", e.code().value());
   }
   files.settle();
 }

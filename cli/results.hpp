@@ -41,6 +41,9 @@ void check_output(const std::string& path);
 /// The same of what --json names, which must not be the scene or the configuration that is read either.
 void check_json(const Options& options);
 
+/// Writes to standard output, whole. Throws std::system_error with the cause if it cannot.
+void print_whole(const std::string& text);
+
 /// Ends a run: writes `document` where --json says, if it was given, gives all of `files` their names, and prints
 /// `text` unless JSON has standard output. All appear or none: if standard output fails, files are as they were.
 void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text);
@@ -69,8 +72,8 @@ class OutFolder {
 void refuse_twice(const std::vector<std::string>& paths);
 
 /// Throws Error if a file that is to be written, by whatever name, is one of those that are read. Empty paths and names
-/// of no file (a built-in scene, a named configuration) are none. Both lists go to those of earlier calls: which files a
-/// scene consists of is known once it is read, and holds against all that were to be written before.
+/// of no file (a built-in scene, a named configuration) are none. Both lists go to those of earlier calls: which files
+/// a scene consists of is known once it is read, and holds against all that were to be written before.
 void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 }  // namespace kage::cli

@@ -5,12 +5,14 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <cstring>
 #include <mutex>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "cosim/model/sha256.hpp"
+#include "file/one_line.hpp"
 #include "kage/error.hpp"
 
 namespace kage::trade {
@@ -63,15 +65,39 @@ std::string plain_text(std::string name) {
   damaged(file, fmt::format("table {}, row {}: its checksum differs", table, plain_text(key)));
 }
 
+/// What has just gone wrong, in words of who runs a sweep.
+std::string cause_of_failure(sqlite3* db) {
+  const int error = sqlite3_system_errno(db);
+  const std::string of_system = error == 0 ? "" : fmt::format(": {}", std::strerror(error));
+  switch (sqlite3_errcode(db)) {
+    case SQLITE_READONLY:
+      return "the store cannot be written: it may only be read, or is gone";
+    case SQLITE_FULL:
+      return "the store cannot be written: its disk is full";
+    case SQLITE_IOERR:
+      return "the store cannot be read or written" + of_system;
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+      return "the store cannot be opened" + of_system;
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "another program keeps the store locked";
+    case SQLITE_NOMEM:
+      return "out of memory";
+    default:
+      return "the store cannot be used";
+  }
+}
+
 /// Throws what has just gone wrong.
 [[noreturn]] void fail(const std::string& file, sqlite3* db) {
   switch (sqlite3_errcode(db)) {
     case SQLITE_NOTADB:
       throw Error(fmt::format("{}: no store of kage sweep: it is no SQLite file", file));
     case SQLITE_CORRUPT:
-      damaged(file, sqlite3_errmsg(db));
+      damaged(file, one_line(sqlite3_errmsg(db)));
     default:
-      throw Error(fmt::format("{}: {}", file, sqlite3_errmsg(db)));
+      throw Error(fmt::format("{}: {} (SQLite: {})", file, cause_of_failure(db), one_line(sqlite3_errmsg(db))));
   }
 }
 
@@ -207,7 +233,7 @@ struct SweepStore::Data {
     check_schema();
     Statement s(db, file, "PRAGMA quick_check(1)");
     const std::string found = s.step() ? s.text(0) : "nothing";
-    if (found != "ok") damaged(file, found.substr(0, found.find('\n')));
+    if (found != "ok") damaged(file, one_line(found.starts_with("***") ? found.substr(found.find('\n') + 1) : found));
   }
 };
 
@@ -296,8 +322,7 @@ bool SweepStore::is_empty(const std::filesystem::path& file) {
 void SweepStore::check(const std::filesystem::path& file) {
   std::error_code ec;
   if (!std::filesystem::exists(file, ec)) throw Error(fmt::format("{}: no such file", file.string()));
-  if (is_empty(file))
-    throw Error(fmt::format("{}: no store of kage sweep: it is empty", file.string()));
+  if (is_empty(file)) throw Error(fmt::format("{}: no store of kage sweep: it is empty", file.string()));
   Data d(file);
   d.open(0);
   d.check_version();

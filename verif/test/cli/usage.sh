@@ -134,11 +134,12 @@ for closed in '2>&-' '0<&- 1>&- 2>&-' '2>/dev/full'; do
   [ $rc = 2 ] || fail "info $closed: exit $rc of a file that is not there"
 done
 # What is told and does not arrive is trouble; a reader who has had enough knows.
-for command in "info heard.kage" "info heard.kage --json -" "cosim heard.kage --no-report --out full" "diff heard.kage heard.kage"; do
+for command in "info heard.kage" "info heard.kage --json -" "cosim heard.kage --no-report --out full" "diff heard.kage heard.kage" \
+  --version --help "help cosim" "help --man" list "render heard.kage --out full" "info heard.kage --tokens 0"; do
   rc=0
   # shellcheck disable=SC2086
   "$kage" $command >/dev/full 2>stderr || rc=$?
-  [ $rc = 2 ] && grep -q '^kage: standard output: cannot be written' stderr || fail "$command >/dev/full: exit $rc, $(cat stderr)"
+  [ $rc = 2 ] && grep -q '^kage: standard output: cannot be written: No space left on device$' stderr || fail "$command >/dev/full: exit $rc, $(cat stderr)"
 done
 # A run that cannot say its result leaves what was there before.
 mkdir kept && echo old >kept/heard_0000.png && cp kept/heard_0000.png kept/s.kage && cp kept/heard_0000.png kept/t.bsp

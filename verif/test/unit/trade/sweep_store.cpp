@@ -135,9 +135,40 @@ TEST_CASE("what is no store is refused, and left as it is") {
   std::string damaged = good;
   for (std::size_t i = 4096; i < std::size_t{3} * 4096; ++i) damaged[i] = static_cast<char>(i * 7);
   check(damaged, "");
+  CHECK_THAT(refused(file), !ContainsSubstring("***"));
   check(good.substr(0, good.size() / 2), "the store is damaged, so begin another: ");
   CHECK(refused(folder.path / "no/such/a.sqlite") == (folder.path / "no/such/a.sqlite: no such folder").string());
   CHECK(refused(folder.path) == folder.path.string() + ": a folder, and no store");
+}
+
+TEST_CASE("what SQLite cannot do is told in words of kage's own, in one line") {
+  using Catch::Matchers::ContainsSubstring;
+  const verif::TempFolder folder("sweep-causes");
+  const auto file = folder.path / "a.sqlite";
+  // Pages that no table has: quick_check puts a headline above what it found.
+  {
+    SweepStore store(file);
+    for (int n = 0; n < 200; ++n) store.keep_run(std::to_string(n), "scene", "point", kMade, row(n));
+  }
+  run_sql(file, "DELETE FROM run");
+  std::string bytes = read_file(file);
+  for (std::size_t i = 36; i < 40; ++i) bytes[i] = 0;  // how many free pages there are
+  for (std::size_t i = 32; i < 36; ++i) bytes[i] = 0;  // and the first
+  write(file, bytes);
+  const std::string found = refused(file);
+  CHECK_THAT(found, ContainsSubstring(file.string() + ": the store is damaged, so begin another: ") &&
+                        !ContainsSubstring("***") && !ContainsSubstring("\n"));
+  // A store whose file is gone can no longer be written.
+  std::filesystem::remove(file);
+  SweepStore store(file);
+  std::filesystem::remove(file);
+  try {
+    store.keep_run("1", "scene", "point", kMade, row(1));
+    FAIL("it is written");
+  } catch (const Error& e) {
+    CHECK_THAT(e.what(),
+               ContainsSubstring(file.string() + ": the store cannot be ") && ContainsSubstring(" (SQLite: "));
+  }
 }
 
 TEST_CASE("a row that is not what was kept is told by file and row, by whoever reads it") {
