@@ -219,7 +219,7 @@ void add_cache(CLI::App& app, Action& action) {
                   "  kage cache prune --older-than 30d --max-size 2G    # damaged ones go in any case");
   const auto o = std::make_shared<CacheCommand>();
   c->add_option("WHAT", o->what, "list, verify or prune; without it: folder, number and size")
-      ->check(CLI::IsMember({"list", "verify", "prune"}))
+      ->check(one_of({"list", "verify", "prune"}))
       ->type_name("");
   c->add_option("--older-than", o->older_than, "prune: remove what was not used for so long, like 90m, 12h, 30d")
       ->type_name("AGE");

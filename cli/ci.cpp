@@ -89,7 +89,7 @@ void option_annotate(CLI::App& command, std::string& annotate) {
                   "github: print a difference so that GitHub shows it at the RTL's file, default where GITHUB_ACTIONS "
                   "is true; none: never")
       ->option_text("github|none")
-      ->check(CLI::IsMember({"github", "none"}))
+      ->check(one_of({"github", "none"}))
       ->type_name("WHERE");
 }
 

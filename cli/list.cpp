@@ -101,7 +101,7 @@ void add_list(CLI::App& app, Action& action) {
                   "  kage list --json -");
   const auto o = std::make_shared<ListCommand>();
   c->add_option("WHAT", o->what, "scenes, configs or faults: their names alone; without it: all, with what they are")
-      ->check(CLI::IsMember({"scenes", "configs", "faults"}))
+      ->check(one_of({"scenes", "configs", "faults"}))
       ->type_name("");
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <map>
 
+#include "file/meant.hpp"
 #include "kage/error.hpp"
 #include "kage/frontend.hpp"
 #include "kage/light.hpp"
@@ -30,6 +31,15 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
             return text.size() > 1 && text.front() == '0' ? text + " begins with 0" : std::string();
           },
           "", "whole"};
+}
+
+CLI::Validator one_of(const std::vector<std::string>& words) {
+  const CLI::Validator member = CLI::IsMember(words);  // a copy of its own kind CLI11 takes for a list of words
+  return {[member, words](std::string& text) {
+            const std::string trouble = member(text);
+            return trouble.empty() ? trouble : trouble + meant(text, words);
+          },
+          member.get_description(), ""};
 }
 
 CLI::Validator real_number(double least, double most, const char* least_text) {
@@ -144,7 +154,7 @@ static void option_translucent(CLI::App& command, Options& options) {
           "--order", [&options](const std::string& name) { options.order = translucent_ways().at(name); },
           "order of translucent faces, default exact; the others show what cheaper orders get wrong")
       ->option_text("exact|centroid|submission")
-      ->check(CLI::IsMember({"exact", "centroid", "submission"}))
+      ->check(one_of({"exact", "centroid", "submission"}))
       ->type_name("WAY");
   command
       .add_option("--alpha", options.alpha,
@@ -215,7 +225,7 @@ void option_front_end(CLI::App& command, Options& options) {
               "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
               kUsualActive))
       ->option_text("host|rtl")
-      ->check(CLI::IsMember({"host", "rtl"}))
+      ->check(one_of({"host", "rtl"}))
       ->type_name("WHO");
 }
 
@@ -256,7 +266,7 @@ void option_level(CLI::App& command, Options& options) {
               "has none",
               kUsualActive))
       ->option_text("spans|polygons")
-      ->check(CLI::IsMember({"spans", "polygons"}))
+      ->check(one_of({"spans", "polygons"}))
       ->type_name("LEVEL");
 }
 

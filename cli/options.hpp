@@ -19,6 +19,9 @@ namespace kage::cli {
 /// many digits wrap round in an unsigned one.
 CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
+/// One of these words. A message says which was probably meant.
+CLI::Validator one_of(const std::vector<std::string>& words);
+
 /// What the type of an option ends with whose value is a file, or - for standard output. Any other option that names a
 /// file refuses - before the command begins.
 inline constexpr const char* kOrStandardOutput = "|-";

@@ -371,7 +371,7 @@ void add_plan(CLI::App& app, Action& action) {
        "bound: each width follows from an inequality, whatever the scene; measured: each width was lowered until the "
        "pictures of these frames were over a limit; default bound")
       ->option_text("bound|measured")
-      ->check(CLI::IsMember({"bound", "measured"}))
+      ->check(one_of({"bound", "measured"}))
       ->type_name("HOW");
   c->add_option_function<std::string>(
        "--prefer", [plan = &o->plan](const std::string& name) { plan->prefer = preferences().at(name); },
@@ -382,7 +382,7 @@ void add_plan(CLI::App& app, Action& action) {
            "words has the shortest stream; default area",
            100 * kAsGood))
       ->option_text("speed|area|words")
-      ->check(CLI::IsMember({"speed", "area", "words"}))
+      ->check(one_of({"speed", "area", "words"}))
       ->type_name("WHAT");
   auto* clock = c->add_option("--clock", o->clock, "the core's clock in MHz, to keep up with a display")
                     ->check(real_number(0.001, 10000))

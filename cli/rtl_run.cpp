@@ -62,7 +62,7 @@ void option_netlist(CLI::App& command, std::string& netlist) {
       .add_option("--netlist", netlist,
                   "in place of the RTL run the cells that yosys makes of it for a family of FPGAs, as models of "
                   "verif/cosim/model/cells (docs/gates.md)")
-      ->check(CLI::IsMember({"ice40", "ecp5"}))
+      ->check(one_of({"ice40", "ecp5"}))
       ->type_name("FAMILY");
 }
 

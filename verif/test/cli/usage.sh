@@ -80,6 +80,10 @@ line "kage: A is missing; see kage diff --help" "$kage" diff
 line "kage: --seed: -1 is not a whole number from 0 to 2^64 - 1; see kage cosim --help" "$kage" cosim courtyard --seed -1
 trouble 18446744073709551616 "$kage" cosim courtyard --seed 18446744073709551616
 trouble "--lsb" "$kage" diff a b --lsb many
+trouble "(did you mean scenes?)" "$kage" list scen
+trouble "(did you mean exact?)" "$kage" render courtyard --order exakt
+trouble "(did you mean ice40?)" "$kage" model default --netlist ice4
+trouble "(did you mean polygons?)" "$kage" stream courtyard --level polygon
 trouble "--size" "$kage" render courtyard --size 640
 trouble "--size" "$kage" render courtyard --size 0x480
 trouble "--size" "$kage" render courtyard --size 640x480x3
