@@ -153,7 +153,7 @@ void add_diff(CLI::App& app, Action& action) {
                   "holds files that A lacks (or, with --dry-run, would be changed), 2 trouble: B is as it was.");
   const auto o = std::make_shared<DiffCommand>();
   c->add_option("A", o->a,
-                "a picture (PNG, EXR or any other that OpenImageIO reads), a folder of them, or a stream file")
+                "a picture (PNG, EXR, or what else docs/diff.md lets through), a folder of them, or a stream file")
       ->required();
   c->add_option("B", o->b, "another of the same sort")->required();
   add_thresholds(*c, o->limits);

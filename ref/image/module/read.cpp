@@ -7,11 +7,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <memory>
 #include <new>
 #include <optional>
 #include <span>
+#include <system_error>
 #include <thread>
 
 #include "file/read_file.hpp"
@@ -185,8 +187,13 @@ std::vector<Picture::Note> notes_of(const OIIO::ImageSpec& spec, const PngChunks
 std::unique_ptr<OIIO::ImageInput> open_input(const std::filesystem::path& path) {
   OIIO::ImageSpec hints;
   hints.attribute("oiio:UnassociatedAlpha", 1);
+  errno = 0;
   auto input = OIIO::ImageInput::open(path.string(), &hints);
-  if (!input) fail(path, OIIO::geterror());
+  if (!input) {
+    const int why = errno;  // which OpenImageIO leaves out
+    const std::string said = OIIO::geterror();
+    fail(path, why == EMFILE || why == ENFILE ? std::generic_category().message(why) : said);
+  }
   refuse_lossy_format(path, input->format_name());
   const OIIO::ImageSpec& spec = input->spec();
   const int interpretation = photometric(spec);

@@ -182,7 +182,7 @@ printf 'property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\
 echo 'LANES: 2' >c.yaml && mkdir folder && cp heard.kage folder/a.kage
 expect 0 "$kage" order m.obj --eyes 2 --repeats 1 --save m.bsp
 for command in "info none.gltf" "info heard.kage" "list" "diff heard.kage heard.kage" "info m.obj" "info m.off" "info m.stl" "info m.ply" \
-  "render m.obj --size 8x6 --config c.yaml --out few" "order m.bsp --eyes 2 --repeats 1" "diff folder folder" "model tiny" "area tiny"; do
+  "render m.obj --size 8x6 --config c.yaml --out few" "order m.bsp --eyes 2 --repeats 1" "diff folder folder" "diff a.png a.png" "model tiny" "area tiny"; do
   for files in 3 4 5 6 7 8 9 10 12 16; do
     [[ $command != *" tiny" ]] || [ $files -lt 9 ] || continue # with more, Verilator or yosys runs
     rc=0
