@@ -89,7 +89,7 @@ void option_config(CLI::App& command, Options& options) {
   command
       .add_option("--config", options.config,
                   "the core's parameters: a name in rtl/defs/configs.yaml, a YAML file of PARAMETER: value lines, or "
-                  "plan for those that kage plan finds for the scene; default: a name that can draw it all, cheap for the first frame")
+                  "plan for those that kage plan finds for the scene; default: a cheap name that can draw it all")
       ->type_name("NAME|FILE");
 }
 
