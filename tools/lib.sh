@@ -54,14 +54,14 @@ step() {
 }
 
 # at_once FOLDER FUNCTION ITEM...: the function for each item, as many at once as there are processors, each with its output in
-# FOLDER/FUNCTION-ITEM.log; then what they printed, item by item. What the function calls and reads must be exported. Exit code 1: one failed.
+# FOLDER/FUNCTION-ITEM.log and .err; then what they printed there, item by item. What the function calls and reads must be exported. Exit code 1: one failed.
 at_once() {
   local folder=$1 function=$2 item rc=0
   shift 2
   mkdir -p "$folder"
   export -f "${function?}"
-  printf '%s\0' "$@" | xargs -0 -n 1 -P "$jobs" bash -o pipefail -uc '"$1" "$3" >"$2/$1-$3.log" 2>&1' at_once "$function" "$folder" || rc=1
-  for item in "$@"; do cat "$folder/$function-$item.log"; done
+  printf '%s\0' "$@" | xargs -0 -n 1 -P "$jobs" bash -o pipefail -uc '"$1" "$3" >"$2/$1-$3.log" 2>"$2/$1-$3.err"' at_once "$function" "$folder" || rc=1
+  for item in "$@"; do cat "$folder/$function-$item.log" && cat "$folder/$function-$item.err" >&2; done
   return $rc
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <filesystem>
@@ -12,7 +13,9 @@ namespace kage {
 /// Bytes of a file by their place. Behind the end all are 0, and ended() says that one was asked for.
 class FileBytes {
  public:
-  explicit FileBytes(const std::filesystem::path& path) : in_(path, std::ios::binary) {}
+  explicit FileBytes(const std::filesystem::path& path) : in_(path, std::ios::binary | std::ios::ate) {
+    size_ = in_ ? static_cast<std::uint64_t>(in_.tellg()) : 0;
+  }
 
   std::uint32_t byte(std::uint64_t at) { return number(at, 1, false); }
   std::uint32_t little(std::uint64_t at, int bytes) { return number(at, bytes, false); }
@@ -31,8 +34,9 @@ class FileBytes {
     return value;
   }
   /// As many of `most` bytes as there are.
-  std::string text(std::uint64_t at, std::size_t most) {
-    std::string all(most, '\0');
+  std::string text(std::uint64_t at, std::uint64_t most) {
+    if (at >= size_) return "";
+    std::string all(std::min<std::uint64_t>(most, size_ - at), '\0');
     in_.clear();
     if (!in_.seekg(static_cast<std::streamoff>(at))) return "";
     in_.read(all.data(), static_cast<std::streamsize>(most));
@@ -44,26 +48,27 @@ class FileBytes {
  private:
   static constexpr std::uint64_t kMostPlace = std::uint64_t{1} << 62;
   std::ifstream in_;
+  std::uint64_t size_ = 0;
   bool ended_ = false;
 };
 
-/// Calls `see(marker, place of what follows its length, bytes of that)` for the segments of a JPEG file up to its first
-/// scan.
+/// Calls `see(marker, place of what follows its length, bytes of that)` for the segments of a JPEG file, the head of
+/// its first scan the last.
 template <class See>
 void each_jpeg_segment(FileBytes& file, See see) {
+  constexpr std::uint32_t kFill = 0xFF;
+  constexpr std::uint32_t kScan = 0xDA;
   std::uint64_t at = 2;
   while (!file.ended() && file.byte(at) == 0xFF) {
     const std::uint32_t marker = file.byte(at + 1);
-    constexpr std::uint32_t kFill = 0xFF;
-    constexpr std::uint32_t kScan = 0xDA;
     if (marker == kFill) {
       ++at;
       continue;
     }
-    if (marker == kScan) return;
     const std::uint32_t length = file.big(at + 2, 2);
     if (length < 2) return;
     see(marker, at + 4, length - 2);
+    if (marker == kScan) return;
     at += 2 + length;
   }
 }
@@ -71,12 +76,19 @@ void each_jpeg_segment(FileBytes& file, See see) {
 /// The place of the first number behind the mark that a JPEG 2000 codestream begins with (SOC and SIZ); 0 if the file
 /// has none.
 inline std::uint64_t jpeg2000_size(FileBytes& file) {
-  constexpr std::size_t kMostBoxes = std::size_t{1} << 20;
-  const std::string begin = file.text(0, 12);
-  const bool boxes = begin == std::string("\0\0\0\x0CjP  \r\n\x87\n", 12);
-  if (!boxes && begin.compare(0, 4, "\xFF\x4F\xFF\x51") != 0) return 0;
-  const std::size_t at = file.text(0, kMostBoxes).find("\xFF\x4F\xFF\x51");
-  return at == std::string::npos ? 0 : at + 4;
+  const std::string mark = "\xFF\x4F\xFF\x51";
+  if (file.text(0, 4) == mark) return 4;
+  if (file.text(0, 12) != std::string("\0\0\0\x0CjP  \r\n\x87\n", 12)) return 0;
+  for (std::uint64_t at = 0; !file.ended();) {
+    std::uint64_t bytes = file.big(at, 4);
+    const bool is_long = bytes == 1;
+    const std::uint64_t head = is_long ? 16 : 8;
+    if (is_long) bytes = std::uint64_t{file.big(at + 8, 4)} << 32U | file.big(at + 12, 4);
+    if (file.text(at + 4, 4) == "jp2c") return file.text(at + head, 4) == mark ? at + head + 4 : 0;
+    if (bytes < head) return 0;  // 0: it reaches to the end
+    at += bytes;
+  }
+  return 0;
 }
 
 }  // namespace kage

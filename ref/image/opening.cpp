@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/opening.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 
 #include "image/file_bytes.hpp"
@@ -13,14 +15,24 @@ std::uint64_t of_gif(FileBytes& file) {
   return std::uint64_t{4} * kCanvases * file.little(6, 2) * file.little(8, 2);
 }
 
+/// Progressive files, and others of several scans, keep the coefficients of all of them.
 std::uint64_t of_jpeg(FileBytes& file) {
   std::uint64_t bytes = 0;
+  std::uint32_t components = 0;
+  bool keeps = false;
   each_jpeg_segment(file, [&](std::uint32_t marker, std::uint64_t at, std::uint32_t) {
-    constexpr std::uint32_t kProgressive = 0xC2;
+    constexpr std::uint32_t kScan = 0xDA;
+    constexpr std::uint32_t kNoFrames[] = {0xC4, 0xC8, 0xCC};  // tables, and one that nothing uses
     constexpr std::uint64_t kCoefficient = 2;
-    if (marker == kProgressive) bytes = kCoefficient * file.big(at + 1, 2) * file.big(at + 3, 2) * file.byte(at + 5);
+    if (marker == kScan) {
+      keeps = keeps || file.byte(at) < components;
+    } else if (marker >= 0xC0 && marker <= 0xCF && std::ranges::find(kNoFrames, marker) == std::end(kNoFrames)) {
+      components = file.byte(at + 5);
+      bytes = kCoefficient * file.big(at + 1, 2) * file.big(at + 3, 2) * components;
+      keeps = (marker & 3U) == 2;
+    }
   });
-  return bytes;
+  return keeps ? bytes : 0;
 }
 
 std::uint64_t of_jpeg2000(FileBytes& file) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The one place where JSON is written. The test contract/one_place refuses any other.
+// Where JSON is written. The test contract/one_place refuses a dump() that ends by a foreign error where a name is no
+// UTF-8.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -7,9 +7,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <latch>
+#include <memory>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -65,17 +67,18 @@ void check_room(const fs::path& path, const std::string& what_for, std::size_t r
 /// Libraries that start threads as they are opened may wait for ever where one cannot be started, and hear no signal;
 /// so as many are tried before.
 void check_threads(const fs::path& path, const std::string& what_for) {
-  const unsigned count = 8 + 2 * std::thread::hardware_concurrency();
+  // A pool of four, one of as many as there are processors; measured: 5 with two processors.
+  const unsigned count = 4 + std::max(2U, std::thread::hardware_concurrency());
   std::latch tried(1);
   std::vector<std::jthread> threads;
+  const std::unique_ptr<std::latch, void (*)(std::latch*)> end(&tried, [](std::latch* l) { l->count_down(); });
   try {
     for (unsigned i = 0; i < count; ++i) threads.emplace_back([&tried] { tried.wait(); });
   } catch (const std::system_error& e) {
-    tried.count_down();
-    throw Error(fmt::format("{}: starts up to {} threads, and there is no room for them ({}; ulimit -u), and {}",
-                            path.string(), count, e.code().message(), what_for));
+    throw Error(
+        fmt::format("{}: starts up to {} threads, and there is no room for them ({}; ulimit -u, pids.max), and {}",
+                    path.string(), count, e.code().message(), what_for));
   }
-  tried.count_down();
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdint>
 #include <fstream>
-#include <limits>
 
 #include "file/one_line.hpp"
 #include "kage/error.hpp"
@@ -61,7 +60,7 @@ class Netpbm {
   }
 
  private:
-  static constexpr std::uint64_t kMostSide = std::numeric_limits<std::int32_t>::max();
+  static constexpr std::uint64_t kMostSide = std::uint64_t{1} << 24;
 
   [[noreturn]] void fail(const std::string& cause) const { throw Error(fmt::format("{}: {}", path_.string(), cause)); }
 
@@ -94,10 +93,19 @@ class Netpbm {
     return value;
   }
 
+  /// Nothing follows but blanks, comments and an old end of a file.
+  bool ended() {
+    constexpr int kOldEnd = 0x1A;
+    int c = next();
+    while (c == kOldEnd) c = next();
+    return c < 0;
+  }
+
   void check_factor() {
     const std::string text = word("a factor");
     double factor = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), factor);
+    const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), factor);
     if (error != std::errc() || end != text.data() + text.size())
       fail(fmt::format("\"{}\" is no factor", one_line(text)));
     if (std::abs(factor) != 1)
@@ -125,7 +133,7 @@ class Netpbm {
       see(data, some);
       left -= some;
     }
-    if (in_.peek() >= 0) fail("has bytes behind its picture, which are not read");
+    if (!ended()) fail("has bytes behind its picture, which are not read");
   }
 
   void check_values(const char* data, std::size_t size, std::uint64_t most) const {
@@ -138,7 +146,7 @@ class Netpbm {
   }
 
   void check_rest() {
-    if (next() >= 0) fail("has words behind its picture, which are not read");
+    if (!ended()) fail("has words behind its picture, which are not read");
   }
 
   std::filesystem::path path_;

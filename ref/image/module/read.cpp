@@ -288,7 +288,7 @@ class FileReader : public PictureReader {
     HeadNotes notes;
     if (largest) notes.largest = *largest;
     if (format == "pnm" && !largest) fail(path, "is a Netpbm file of no kind that is read");
-    if (format == "tiff") notes.extra = check_tiff(path, part_);
+    if (format == "tiff") notes.extra = check_tiff_head(path, part_);
     if (format == "hdr") notes.light = light_of_radiance(path);
     if (format == "bmp") notes.space = space_of_bmp(path);
     head_ = described(*input_, path, png, notes);
@@ -310,6 +310,7 @@ class FileReader : public PictureReader {
   }
 
   void read(int y, int count, std::byte* to) override {
+    if (y == 0 && input_->format_name() == std::string_view("tiff")) check_tiff_lines(path_, part_);
     const int from = spec_.y + y;
     // Without a type each channel keeps its own: one for all would round the integers of a file that has floats too.
     const OIIO::TypeDesc own = OIIO::TypeDesc::UNKNOWN;

@@ -22,12 +22,19 @@ struct Closer {
 };
 using Handle = std::unique_ptr<TIFF, Closer>;
 
-Handle open(const std::filesystem::path& path) {
+[[noreturn]] void refuse_tiff(const std::filesystem::path& path, const std::string& cause) {
+  throw Error(fmt::format("{}: {}", path.string(), cause));
+}
+
+Handle open_tiff(const std::filesystem::path& path, int part) {
   const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
                                                                              TIFFOpenOptionsFree);
   TIFFOpenOptionsSetErrorHandlerExtR(options.get(), silent, nullptr);
   TIFFOpenOptionsSetWarningHandlerExtR(options.get(), silent, nullptr);
-  return Handle(TIFFOpenExt(path.c_str(), "r", options.get()));
+  Handle file(TIFFOpenExt(path.c_str(), "r", options.get()));
+  if (!file || TIFFSetDirectory(file.get(), static_cast<tdir_t>(part)) != 1)
+    refuse_tiff(path, "the TIFF file is damaged");
+  return file;
 }
 
 std::uint16_t number(TIFF* file, std::uint32_t tag, std::uint16_t otherwise) {
@@ -45,8 +52,8 @@ std::span<const std::uint16_t> extra_samples(TIFF* file) {
 /// What of the directory would be lost; "" if nothing would.
 std::string lost(TIFF* file) {
   const std::uint16_t compression = number(file, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
-  if (TIFFIsCODECConfigured(compression) != 1)
-    return fmt::format("is compressed in the way {}, which libtiff does not read here", compression);
+  if (TIFFIsCODECConfigured(compression) != 1 || compression == COMPRESSION_JBIG)
+    return fmt::format("is compressed in the way {}, which is not read", compression);
   std::uint32_t height = 0;
   TIFFGetField(file, TIFFTAG_IMAGELENGTH, &height);
   if (height == 1 && number(file, TIFFTAG_BITSPERSAMPLE, 1) == 64)  // a line alone comes as zeros
@@ -78,16 +85,19 @@ std::int64_t bad_line(TIFF* file) {
 
 }  // namespace
 
-std::string check_tiff(const std::filesystem::path& path, int part) {
-  const Handle file = open(path);
-  const auto fail = [&](const std::string& cause) { throw Error(fmt::format("{}: {}", path.string(), cause)); };
-  if (!file || TIFFSetDirectory(file.get(), static_cast<tdir_t>(part)) != 1) fail("the TIFF file is damaged");
-  if (const std::string cause = lost(file.get()); !cause.empty()) fail(cause);
-  // Tiles that are damaged OpenImageIO refuses itself.
-  if (TIFFIsTiled(file.get()) == 0)
-    if (const std::int64_t y = bad_line(file.get()); y >= 0)
-      fail(fmt::format("line {} cannot be decoded: it is damaged, or cut off", y));
+std::string check_tiff_head(const std::filesystem::path& path, int part) {
+  const Handle file = open_tiff(path, part);
+  if (const std::string cause = lost(file.get()); !cause.empty()) refuse_tiff(path, cause);
   return fmt::format("{}", fmt::join(extra_samples(file.get()), " "));
+}
+
+void check_tiff_lines(const std::filesystem::path& path, int part) {
+  const Handle file = open_tiff(path, part);
+  if (TIFFIsTiled(file.get()) != 0) return;  // OpenImageIO refuses those that are damaged
+  for (std::uint32_t strip = 0; strip < TIFFNumberOfStrips(file.get()); ++strip)
+    if (TIFFGetStrileByteCount(file.get(), strip) == 0) refuse_tiff(path, fmt::format("strip {} is left out", strip));
+  if (const std::int64_t y = bad_line(file.get()); y >= 0)
+    refuse_tiff(path, fmt::format("line {} cannot be decoded: it is damaged, or cut off", y));
 }
 
 }  // namespace kage::picture_module

@@ -108,7 +108,7 @@ struct DiffViews {
 /// Compares two picture files. Throws Error where one cannot be read, holds several pictures and `options` name none,
 /// or `options` do not go with them, and, before anything is read, where that takes too much memory. Without `views`
 /// and `perceptual` a PNG takes that of some lines, whatever its height.
-/// @param a any type that OpenImageIO reads
+/// @param a of any format whose every bit is compared (docs/diff.md)
 /// @param b likewise
 /// @param options what is compared, and what is still the same
 /// @param views filled if given

@@ -49,7 +49,7 @@ struct Image {
 void save_image(const std::filesystem::path& path, const Image& image);
 
 /// Reads an 8-bit picture of 1 or 3 channels; others are refused.
-/// @param path a file of any format that OpenImageIO reads
+/// @param path a file of any format that kage diff compares (docs/diff.md)
 /// @return the picture, its values as they are in the file
 Image load_image(const std::filesystem::path& path);
 

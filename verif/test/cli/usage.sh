@@ -201,7 +201,7 @@ done
 other=(setpriv --reuid=64999 --regid=64999 --clear-groups)
 if "${other[@]}" "$kage" --version >/dev/null 2>&1; then
   chmod a+rx . && chmod a+r one.ppm
-  for threads in 1 2 3 4 6 9 12 $((2 * $(nproc) + 40)); do
+  for threads in 1 2 3 4 5 6 $(($(nproc) + 8)); do
     for command in "diff one.ppm one.ppm" "diff one.ppm one.ppm --perceptual"; do
       rc=0
       # shellcheck disable=SC2086
@@ -211,6 +211,8 @@ if "${other[@]}" "$kage" --version >/dev/null 2>&1; then
     done
   done
   [ $rc = 0 ] || fail "$threads threads are too few: $(cat stderr)"
+else
+  echo "left out: few threads, as another user cannot run this build"
 fi
 set +o pipefail
 "$kage" info heard.kage --tokens 0 2>stderr | head -n 1 >first

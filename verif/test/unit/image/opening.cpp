@@ -54,9 +54,14 @@ TEST_CASE("what decodes a picture as it opens it is asked for its size before") 
       {"a.jpg",
        "\xFF\xD8\xFF\xFF\xC2" + big(17, 2) + "\x08" + big(8000, 2) + big(8000, 2) + "\x03" + std::string(9, '\1')},
       {"a.j2k", codestream},
-      {"a.jp2", std::string("\0\0\0\x0CjP  \r\n\x87\n", 12) + std::string(40, '\0') + codestream}};
-  const std::uint64_t least[] = {std::uint64_t{4} * 12000 * 12000, std::uint64_t{2} * 3 * 8000 * 8000,
-                                 std::uint64_t{4} * 8000 * 8000, std::uint64_t{4} * 8000 * 8000};
+      {"a.jp2", std::string("\0\0\0\x0CjP  \r\n\x87\n", 12) + big(8 + (1U << 21U), 4) + "xml " +
+                    std::string(std::size_t{1} << 21U, ' ') + big(0, 4) + "jp2c" + codestream},
+      {"b.jpg", "\xFF\xD8\xFF\xCA" + big(17, 2) + "\x08" + big(8000, 2) + big(8000, 2) + "\x03" + std::string(9, '\1')},
+      {"c.jpg", "\xFF\xD8\xFF\xC0" + big(17, 2) + "\x08" + big(8000, 2) + big(8000, 2) + "\x03" + std::string(9, '\1') +
+                    "\xFF\xDA" + big(8, 2) + "\x01" + std::string(5, '\0')}};
+  const std::uint64_t least[] = {std::uint64_t{4} * 12000 * 12000,   std::uint64_t{2} * 3 * 8000 * 8000,
+                                 std::uint64_t{4} * 8000 * 8000,     std::uint64_t{4} * 8000 * 8000,
+                                 std::uint64_t{2} * 3 * 8000 * 8000, std::uint64_t{2} * 3 * 8000 * 8000};
   std::size_t i = 0;
   for (const auto& [name, content] : files) {
     CAPTURE(name);
