@@ -39,7 +39,7 @@ class FileBytes {
     std::string all(std::min<std::uint64_t>(most, size_ - at), '\0');
     in_.clear();
     if (!in_.seekg(static_cast<std::streamoff>(at))) return "";
-    in_.read(all.data(), static_cast<std::streamsize>(most));
+    in_.read(all.data(), static_cast<std::streamsize>(all.size()));
     all.resize(static_cast<std::size_t>(in_.gcount()));
     return all;
   }

@@ -139,8 +139,9 @@ class Netpbm {
   void check_values(const char* data, std::size_t size, std::uint64_t most) const {
     if (most == 255 || most == 65535) return;
     const auto byte = [&](std::size_t i) { return static_cast<std::uint64_t>(static_cast<unsigned char>(data[i])); };
-    for (std::size_t i = 0; i<size; i += most> 255 ? 2 : 1) {
-      const std::uint64_t value = most > 255 ? byte(i) << 8U | byte(i + 1) : byte(i);
+    const std::size_t step = most > 255 ? 2 : 1;
+    for (std::size_t i = 0; i < size; i += step) {
+      const std::uint64_t value = step == 2 ? byte(i) << 8U | byte(i + 1) : byte(i);
       if (value > most) fail(fmt::format("has the value {}, and its largest is {}", value, most));
     }
   }

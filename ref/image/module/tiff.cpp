@@ -49,7 +49,7 @@ std::span<const std::uint16_t> extra_samples(TIFF* file) {
   return {kinds, count};
 }
 
-/// What of the directory would be lost; "" if nothing would.
+/// The part of the directory that OpenImageIO would lose; "" if it loses nothing.
 std::string lost(TIFF* file) {
   const std::uint16_t compression = number(file, TIFFTAG_COMPRESSION, COMPRESSION_NONE);
   if (TIFFIsCODECConfigured(compression) != 1 || compression == COMPRESSION_JBIG)

@@ -32,7 +32,7 @@ class ObjLibraries {
   /// Takes the library of the OBJ file's own name where none that it names is there.
   void fall_back(std::vector<std::string>& notes);
 
-  /// Those that are there.
+  /// The libraries that are there.
   [[nodiscard]] std::vector<std::string> files() const { return side_files_.files(); }
 
  private:
