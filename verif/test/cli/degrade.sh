@@ -23,7 +23,7 @@ grep -q '^same: 4 frames' stdout || fail "$(cat stdout)"
 expect 0 "$kage" cosim canopy --degrade --config systoliclights --size 64x48 --frames 3 --jobs 2 --out cosim
 grep -q 'canopy: drawn with one shadow volume a light sample: more need FSF' stdout || fail "$(cat stdout)"
 grep -q '^same: 3 frames' stdout || fail "$(cat stdout)"
-sed -n '/^systoliclights:/,$p' "$source/rtl/defs/configs.yaml" | sed 1d | grep -vE 'COUNT|LIGHTS|CLASS' >no_fsf.yaml
+sed -n '/^systoliclights:/,/^$/p' "$source/rtl/defs/configs.yaml" | sed 1d | grep -vE 'COUNT|LIGHTS|CLASS' >no_fsf.yaml
 trouble "canopy: frame 0: several shadow volumes need FSF, which the configuration lacks" \
   "$kage" render canopy --config no_fsf.yaml --size 64x48 --frames 1 --out x
 done_testing
