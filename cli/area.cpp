@@ -43,7 +43,7 @@ Json terms_json(const Config& config, std::span<const CellTerm> terms) {
 double off(double estimated, int counted) { return 100 * (estimated / counted - 1); }
 
 int run(const AreaCommand& o) {
-  refuse_inputs({file_named(o.json)}, o.configs);
+  reads_files(o.configs);
   check_json(o);
   std::vector<NamedConfig> list;
   if (o.configs.empty()) list = named_configs();

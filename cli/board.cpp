@@ -110,7 +110,7 @@ board::PackVerdict play(const BoardCommand& o, const vectors::Pack& pack) {
 int run(const BoardCommand& o) {
   check_options(o);
   const vectors::Pack pack = vectors::checked_pack(o.input, vectors::Check::answers, check_interrupt);
-  refuse_inputs({file_named(o.json)}, vectors::files_of(o.input, pack));
+  reads_files(vectors::files_of(o.input, pack));
   check_json(o);
   std::optional<OutFolder> folder;
   std::optional<ReportLock> lock;

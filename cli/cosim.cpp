@@ -87,15 +87,11 @@ int run(const CosimCommand& o) {
   const OutFolder folder(o.out);
   std::optional<ReportLock> lock;
   if (!o.no_report && !o.out.empty()) lock.emplace(o.out);
+  reads_files(o.inputs);
   check_json(o);
   check_output(o.ci.junit);
-  const std::vector<std::string> outputs{
-      file_named(o.json), o.ci.junit,
-      o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()};
-  std::vector<std::string> inputs = o.inputs;
-  inputs.push_back(o.config);
-  refuse_inputs(outputs, inputs);
-  refuse_twice(outputs);
+  refuse_twice({file_named(o.json), o.ci.junit,
+                o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   const Scenes scenes = open(o);
   compare(scenes, o.jobs > 0 ? o.jobs : default_jobs());
   TempFiles files;

@@ -145,12 +145,12 @@ void print_shards(const report::SceneRecord& scene, const std::string& who) {
 int run(const MergeCommand& o) {
   std::optional<OutFolder> folder;
   if (!o.out.empty()) folder.emplace(o.out);
+  reads_files(o.inputs);
   check_json(o);
   check_output(o.junit);
-  const std::vector<std::string> outputs{file_named(o.json), o.junit,
-                                         o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()};
-  refuse_inputs(outputs, o.inputs);
-  refuse_twice(outputs);
+  const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string();
+  check_output(page);
+  refuse_twice({file_named(o.json), o.junit, page});
   TempFiles files;
   const std::vector<ShardFile> shards = read_shards(o.inputs);
   const std::size_t count = shards.front().record.scenes.size();
@@ -169,7 +169,6 @@ int run(const MergeCommand& o) {
   }
   junit.close();
   if (!o.out.empty()) {
-    const std::string page = (std::filesystem::path(o.out) / "report.html").string();
     for (const ShardFile& s : shards) keep_page(page, s.file, s.record);
     write_joined_page(files, page, all);
     all.page = page;

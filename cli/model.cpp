@@ -37,8 +37,8 @@ std::vector<NamedConfig> plans(const ModelCommand& o) {
 }
 
 int run(const ModelCommand& o) {
-  refuse_inputs({file_named(o.json)}, o.configs);
-  refuse_inputs({}, o.planned);
+  reads_files(o.configs);
+  reads_files(o.planned);
   check_json(o);
   std::vector<NamedConfig> list;
   if (o.configs.empty() && o.planned.empty()) list = named_configs();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cosim_run.hpp"
+#include "file/inputs.hpp"
 
 namespace kage::cli {
 
@@ -24,6 +25,7 @@ void remove_old_evidence(TempFiles& files, const std::string& folder, const std:
       const auto& d = r.first_difference;
       if (d && d->frame == frame && end == kept_ending(*d)) continue;  // it is written anew
       const fs::path path = fs::path(folder) / fmt::format("{}_{:04}{}", name, frame, end);
+      if (is_input(path)) continue;
       std::error_code ec;
       const fs::file_type type = fs::symlink_status(path, ec).type();
       if ((type == fs::file_type::regular || type == fs::file_type::symlink) &&  // else it was not ours

@@ -231,15 +231,12 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
 
 int run(const OrderCommand& o) {
   check_json(o);
-  refuse_inputs({o.save, o.plot}, {o.input});
   refuse_random(o.input);
   TempFiles files;
   std::optional<OutputFile> saved;
   if (!o.save.empty()) saved.emplace(files, o.save);
-  if (!o.plot.empty()) {
-    TempFiles probe;
-    write_text(probe, o.plot, "");
-  }
+  check_output(o.plot);
+  check_output(o.save);
   Progress progress;
   double build_seconds = 0;
   const OrderTree tree = make_tree(o, progress, build_seconds);

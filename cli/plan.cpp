@@ -304,7 +304,7 @@ Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::stri
 }
 
 int run(const PlanCommand& o) {
-  refuse_inputs({file_named(o.json)}, o.inputs);
+  reads_files(o.inputs);
   check_json(o);
   Progress progress;
   std::vector<PlannedScene> scenes;

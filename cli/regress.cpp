@@ -114,12 +114,12 @@ int run(const RegressCommand& o) {
   }
   const OutFolder folder(o.out);
   const ReportLock lock(o.out);
+  reads_files(o.configs);
   check_json(o);
   check_output(o.ci.junit);
   const std::string page = (std::filesystem::path(o.out) / "report.html").string();
-  const std::vector<std::string> outputs{file_named(o.json), o.ci.junit, page};
-  refuse_inputs(outputs, o.configs);
-  refuse_twice(outputs);
+  check_output(page);
+  refuse_twice({file_named(o.json), o.ci.junit, page});
   Regress regress(o);
   regress.prepare();
   regress.run(o.jobs > 0 ? o.jobs : default_jobs());

@@ -7,17 +7,31 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <map>
 #include <mutex>
 #include <set>
 #include <system_error>
 
+#include "file/inputs.hpp"
 #include "file/plain_io.hpp"
 #include "file/real_path.hpp"
 #include "json/json_text.hpp"
 #include "kage/error.hpp"
 
 namespace kage::cli {
+namespace {
+
+/// The outputs that the run was asked for, as they were named.
+struct Checked {
+  std::mutex mutex;
+  std::vector<std::string> outputs;
+};
+
+Checked& checked() {
+  static Checked all;
+  return all;
+}
+
+}  // namespace
 
 Document::Document(std::string_view schema, const Json& value) {
   const auto named = [&](const Json& object) {
@@ -41,12 +55,20 @@ void check_output(const std::string& path) {
   if (path.empty()) return;
   TempFiles file;
   const OutputFile probe(file, path);
+  const std::lock_guard lock(checked().mutex);
+  checked().outputs.push_back(path);
+}
+
+void reads_files(const std::vector<std::string>& inputs) {
+  for (const std::string& input : inputs) keep_input(input);
+  const std::lock_guard lock(checked().mutex);
+  for (const std::string& output : checked().outputs)
+    if (is_input(output)) throw Error(fmt::format("{}: this output would overwrite an input", output));
 }
 
 void check_json(const Options& options) {
-  if (json_only(options)) return;
-  refuse_inputs({options.json}, {options.input, options.config});
-  check_output(options.json);
+  reads_files({options.input, options.config});
+  check_output(file_named(options.json));
 }
 
 void print_whole(const std::string& text) {
@@ -114,20 +136,6 @@ void refuse_twice(const std::vector<std::string>& paths) {
   for (const std::string& path : paths)
     if (!path.empty() && !is_device(path) && !seen.insert(real_path(path)).second)
       throw Error(fmt::format("{}: two outputs have this name", path));
-}
-
-void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs) {
-  static std::mutex mutex;
-  static std::set<std::filesystem::path> read;
-  static std::map<std::filesystem::path, std::string> written;  // as the run was told
-  const std::lock_guard lock(mutex);
-  std::error_code ec;
-  for (const std::string& input : inputs)
-    if (std::filesystem::is_regular_file(input, ec)) read.insert(real_path(input));
-  for (const std::string& output : outputs)
-    if (!output.empty()) written.emplace(real_path(output), output);
-  for (const auto& [path, output] : written)
-    if (read.count(path) != 0) throw Error(fmt::format("{}: this output would overwrite an input", output));
 }
 
 }  // namespace kage::cli

@@ -35,11 +35,16 @@ std::string file_named(const std::string& output);
 /// Whether `--json -` claims standard output for itself.
 bool json_only(const Options& options);
 
-/// Throws Error if a file cannot be written: before the work, not after it. An empty path is none.
+/// Throws Error if a file cannot be written, or is an input: before the work, not after it. An empty path is none.
 void check_output(const std::string& path);
 
-/// The same of what --json names, which must not be the scene or the configuration that is read either.
+/// The same of what --json names, which reads_files() the scene's file and the configuration's too.
 void check_json(const Options& options);
+
+/// These files are read, and no output may take the place of one (file/inputs.hpp). Names of no file (a built-in scene,
+/// a named configuration) are none. Throws Error if check_output() was asked of one of them before: which files a scene
+/// consists of is known once it is read.
+void reads_files(const std::vector<std::string>& inputs);
 
 /// Writes to standard output, whole. Throws std::system_error with the cause if it cannot.
 void print_whole(const std::string& text);
@@ -70,10 +75,5 @@ class OutFolder {
 /// Throws Error if two of the files that are to be written, by whatever name, are one. Empty paths are none, and a
 /// device or a pipe may be named more than once, because what it gets replaces nothing.
 void refuse_twice(const std::vector<std::string>& paths);
-
-/// Throws Error if a file that is to be written, by whatever name, is one of those that are read. Empty paths and names
-/// of no file (a built-in scene, a named configuration) are none. Both lists go to those of earlier calls: which files
-/// a scene consists of is known once it is read, and holds against all that were to be written before.
-void refuse_inputs(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs);
 
 }  // namespace kage::cli

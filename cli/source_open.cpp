@@ -59,7 +59,7 @@ Scene load_scene(const std::string& input, const Options& options) { return load
 
 Scene load_scene(const std::string& input, const Options& options, double alpha) {
   Scene scene = Scene::load(input, {alpha, options.allow_outside, check_interrupt});
-  refuse_inputs({}, scene.files());
+  reads_files(scene.files());
   return scene;
 }
 

@@ -32,7 +32,7 @@ int run(const Options& o) {
     throw Error("--out -: standard output is a terminal, which cannot show a stream: send it to a file or a program");
   if (piped(o) && json_only(o)) throw Error("--out - and --json -: both are standard output");
   check_json(o);
-  refuse_inputs({piped(o) ? "" : o.out}, {o.input, o.config});
+  check_output(file_named(o.out));
   refuse_random(o.input);
   Source source(o);
   if (source.is_stream()) source.note("copied from a stream file");

@@ -155,11 +155,10 @@ int run(const SweepCommand& o) {
   const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / trade::kPageName).string();
   if (csv_only(o) && json_only(o)) throw Error("--csv - and --json -: both are standard output");
   refuse_twice({file_named(o.json), file_named(o.csv), o.store, page});
+  reads_files(o.take);
+  reads_files(o.inputs);
   check_json(o);
   check_output(file_named(o.csv));
-  refuse_inputs({file_named(o.json), file_named(o.csv), o.list ? "" : o.store, page}, o.take);
-  refuse_inputs({}, o.inputs);
-  refuse_inputs({}, {o.config});
   check_stores(o);
   Progress progress;
   std::vector<SweptScene> scenes;

@@ -366,7 +366,7 @@ int write_pack(const VectorsCommand& o) {
 int check(const VectorsCommand& o) {
   check_json(o);
   const vectors::Pack pack = vectors::checked_pack(o.check, vectors::Check::all, check_interrupt);
-  refuse_inputs({file_named(o.json)}, vectors::files_of(o.check, pack));
+  reads_files(vectors::files_of(o.check, pack));
   TempFiles none;
   finish(o, {"kage.vectors/1", summary(pack, o.check, std::nullopt)}, none,
          fmt::format("{}: good: {}, configuration {}, {}, {}\n", shown(o.check), counted(pack.frames.size(), "frame"),
@@ -395,11 +395,11 @@ std::string text_of(const vectors::CaptureVerdict& v, const vectors::Pack& pack)
 }
 
 int compare(const VectorsCommand& o) {
+  reads_files({o.compare.at(1)});
   check_json(o);
   const std::string& folder = o.compare.at(0);
-  refuse_inputs({file_named(o.json)}, {o.compare.at(1)});
   const vectors::Pack pack = vectors::checked_pack(folder, vectors::Check::answers, check_interrupt);
-  refuse_inputs({}, vectors::files_of(folder, pack));
+  reads_files(vectors::files_of(folder, pack));
   const vectors::CaptureVerdict v = vectors::judge(folder, pack, o.compare.at(1), o.frame, check_interrupt);
   Json j;
   j["pack"] = folder;

@@ -12,6 +12,7 @@
 #include <set>
 #include <system_error>
 
+#include "file/inputs.hpp"
 #include "file/plain_io.hpp"
 #include "file/real_path.hpp"
 #include "kage/error.hpp"
@@ -55,6 +56,10 @@ std::optional<FileId> id_of(const fs::path& path) {
   return FileId{st.st_dev, st.st_ino, st.st_mode, st.st_size, st.st_mtim.tv_sec, st.st_mtim.tv_nsec};
 }
 
+void refuse_input(const fs::path& target, const fs::path& given) {
+  if (is_input(target)) throw Error(fmt::format("{}: this output would overwrite an input", given.string()));
+}
+
 }  // namespace
 
 bool is_device(const fs::path& path) {
@@ -65,6 +70,7 @@ bool is_device(const fs::path& path) {
 
 TempFile::TempFile(fs::path target, Way way)
     : given_(std::move(target)), name_(whole_name(given_)), target_(given_), way_(way) {
+  refuse_input(target_, given_);
   if (way == Way::remove) {
     folder_ = hidden_beside(target_, given_);
     return;
@@ -93,6 +99,7 @@ TempFile::~TempFile() {
 fs::path TempFile::target() const { return real_path(target_); }
 
 void TempFile::place() {
+  refuse_input(target_, given_);
   if (way_ == Way::remove) {
     move_aside(false);
   } else if (device_) {

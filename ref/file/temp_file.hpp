@@ -35,7 +35,8 @@ struct FileId {
 class TempFile {
  public:
   enum class Way { write, remove };
-  /// Throws Error that names `target`: its folder is not there or cannot be written to, or it is a folder or a socket.
+  /// Throws Error that names `target`: its folder is not there or cannot be written to, or it is a folder, a socket or
+  /// a file that the run reads (inputs.hpp).
   explicit TempFile(std::filesystem::path target, Way way = Way::write);
   /// Removes the temporary file, and undoes place() if settle() did not follow.
   ~TempFile();
@@ -53,7 +54,8 @@ class TempFile {
   [[nodiscard]] bool is_device() const { return device_; }
 
   /// The file gets its name, or goes; what was there is kept aside, to be put back. Throws Error if it cannot, as where
-  /// the name is that of a folder, a link or a device by now: nothing but a file is replaced or removed.
+  /// the name is that of a folder, a link, a device or an input by now: nothing but another file is replaced or
+  /// removed.
   void place();
   /// The file that was there is needed no more.
   void settle();

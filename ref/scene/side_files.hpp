@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Files that a scene's file names: glTF's buffers, an OBJ file's materials, what else Assimp opens. A scene from
-// elsewhere must not be able to read whatever lies on the disk, so they have to lie in the folder of the scene's file
-// or below it, links followed.
+// Files that a scene's file names: glTF's buffers, an OBJ file's materials, what else Assimp opens, and textures, which
+// are not read. A scene from elsewhere must not be able to read whatever lies on the disk, so what is read has to lie
+// in the folder of the scene's file or below it, links followed.
 #pragma once
 
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace kage::scene {
@@ -29,7 +30,14 @@ class SideFiles {
   /// `name` is as the scene's file has it, absolute or counted from that file's folder.
   [[nodiscard]] Found find_named(const std::string& name) const;
 
-  /// The files that were looked for and are there to be read, each once, from the root.
+  /// The same, where the name may be that of another machine, with its folders and its way of parting them: then a file
+  /// of the name's last part is meant that lies beside the scene's. An absolute name is looked for there first.
+  [[nodiscard]] Found find_moved(const std::string& name) const;
+
+  /// Textures are not read, but are the scene's: files() has the one that a statement names, behind options or not.
+  void note_texture(std::string_view words) const;
+
+  /// The files that were looked for and are there, each once, from the root.
   [[nodiscard]] std::vector<std::string> files() const { return {files_.begin(), files_.end()}; }
 
   /// Why a file is refused: the end of a message.

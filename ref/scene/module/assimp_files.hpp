@@ -24,7 +24,9 @@ class AssimpFiles : public Assimp::DefaultIOSystem {
   /// The first file that was asked for, exists and was refused, or "". Readers try names that they make up, so one that
   /// does not exist is no more than missing.
   [[nodiscard]] const std::string& refused() const { return refused_; }
-  /// Those that were asked for and may be read.
+  /// A texture, by the name that a material has for it.
+  void note_texture(const std::string& name) const { side_files_.note_texture(name); }
+  /// Those that were asked for and are there, and the textures.
   [[nodiscard]] std::vector<std::string> files() const { return side_files_.files(); }
 
  private:

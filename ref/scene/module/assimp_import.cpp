@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <new>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -187,6 +188,16 @@ void Reader::write_notes() {
   out_.contents.animations = in_.mNumAnimations;
 }
 
+void note_textures(const aiScene& scene, const AssimpFiles& files) {
+  for (const aiMaterial* m : std::span(scene.mMaterials, scene.mNumMaterials))
+    for (int t = aiTextureType_NONE + 1; m != nullptr && t <= AI_TEXTURE_TYPE_MAX; ++t) {
+      const auto type = static_cast<aiTextureType>(t);
+      aiString name;
+      for (unsigned i = 0; i < m->GetTextureCount(type); ++i)
+        if (m->GetTexture(type, i, &name) == AI_SUCCESS) files.note_texture(text(name));
+    }
+}
+
 /// Why no reader takes the file.
 std::string no_format(const std::filesystem::path& path) {
   const std::string ending = lower_extension(path);
@@ -216,6 +227,7 @@ RawScene read(const std::filesystem::path& path, const std::string& name, bool a
     throw Error(name + ": " + (cause.empty() ? "Assimp cannot read it" : cause));
   }
   RawScene read = Reader(*scene, name).run();
+  note_textures(*scene, *files);
   read.files = files->files();
   return read;
 }

@@ -56,7 +56,7 @@ class MtlReader {
     std::optional<double> dissolve, transparency;
     double illumination = 1;
     double gloss = 0;  // the most of metalness, sheen, clearcoat and 1 - roughness
-    std::size_t textures = 0;
+    std::vector<std::string> textures;
   };
 
   void read_statement();
@@ -84,7 +84,7 @@ void MtlReader::read_statement() {
   if (!known_) return ignore();
   if (is_passed_over(key)) return;
   if (is_texture(key)) {
-    ++known_->textures;
+    known_->textures.emplace_back(in_.name());
   } else if (key == "Kd") {
     read_color(known_->diffuse);
   } else if (key == "Ks") {

@@ -17,17 +17,17 @@ namespace kage::scene {
 
 /// A material: the part of it that is drawn, and words on the rest.
 struct MtlMaterial {
-  glm::dvec3 color{kGrey};  ///< Kd, or Ke over a black Kd
-  double alpha = 1;         ///< by d, or Tr where there is no d
-  bool unlit = false;       ///< `color` is Ke
-  bool emits = false;       ///< Ke over a Kd that is not black
-  bool glossy = false;      ///< by Ks, illum from 3 on, or the words of physically based materials
-  bool unshaded = false;    ///< illum 0
-  bool invisible = false;   ///< d 0, which several programs write and do not mean
-  bool bright = false;      ///< a channel of `color` was above 1
-  bool dark = false;        ///< one was below 0
-  bool dense = false;       ///< its opacity was above 1
-  std::size_t textures = 0;
+  glm::dvec3 color{kGrey};            ///< Kd, or Ke over a black Kd
+  double alpha = 1;                   ///< by d, or Tr where there is no d
+  bool unlit = false;                 ///< `color` is Ke
+  bool emits = false;                 ///< Ke over a Kd that is not black
+  bool glossy = false;                ///< by Ks, illum from 3 on, or the words of physically based materials
+  bool unshaded = false;              ///< illum 0
+  bool invisible = false;             ///< d 0, which several programs write and do not mean
+  bool bright = false;                ///< a channel of `color` was above 1
+  bool dark = false;                  ///< one was below 0
+  bool dense = false;                 ///< its opacity was above 1
+  std::vector<std::string> textures;  ///< what the statements say, options and names of files
 };
 
 using MtlMaterials = std::map<std::string, MtlMaterial, std::less<>>;

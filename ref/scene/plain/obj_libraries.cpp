@@ -25,30 +25,20 @@ void add_once(std::vector<std::string>& to, std::string name) {
 ObjLibraries::ObjLibraries(std::filesystem::path file, std::string name, bool allow_outside)
     : file_(std::move(file)), name_(std::move(name)), side_files_(file_, allow_outside) {}
 
-// A name may be that of another machine, with its folders and its way of parting them: then a file of the name's last
-// part that lies beside the scene is meant. An absolute name is looked for there first.
-SideFiles::Found ObjLibraries::find_file(const std::string& name) const {
-  std::string plain = name;
-  std::replace(plain.begin(), plain.end(), '\\', '/');
-  const std::string last = plain.substr(plain.find_last_of('/') + 1);
-  std::vector<std::string> tries{name, plain, last};
-  if (name.starts_with('/')) tries = {last, name};
-  for (const std::string& path : tries) {
-    SideFiles::Found found = path.empty() ? SideFiles::Found{} : side_files_.find_named(path);
-    if (found.exists) return found;
-  }
-  return {};
-}
-
 void ObjLibraries::read(const SideFiles::Found& file, std::vector<std::string>& notes) {
   if (!read_.insert(file.path.string()).second) return;
   const std::string name = file.path.filename().string();
   read_mtl(read_file(file.path, name), name, materials_, notes);
+  for (const auto& [material, m] : materials_)
+    for (const std::string& texture : m.textures) {
+      side_files_.note_texture(texture);
+      side_files_.note_texture(without_comment(texture));
+    }
 }
 
 void ObjLibraries::add(std::string_view names, std::vector<std::string>& notes) {
   const auto take = [&](const std::string& name) {
-    const SideFiles::Found file = find_file(name);
+    const SideFiles::Found file = side_files_.find_moved(name);
     if (file.exists && file.refused) throw Error(name_ + ": " + SideFiles::refusal(name));
     if (file.exists) read(file, notes);
     return file.exists;

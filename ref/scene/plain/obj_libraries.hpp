@@ -32,11 +32,10 @@ class ObjLibraries {
   /// Takes the library of the OBJ file's own name where none that it names is there.
   void fall_back(std::vector<std::string>& notes);
 
-  /// The libraries that are there.
+  /// The libraries that are there, and the textures that they name.
   [[nodiscard]] std::vector<std::string> files() const { return side_files_.files(); }
 
  private:
-  [[nodiscard]] SideFiles::Found find_file(const std::string& name) const;
   void read(const SideFiles::Found& file, std::vector<std::string>& notes);
 
   std::filesystem::path file_;

@@ -162,7 +162,7 @@ void ObjBuilder::count_materials() const {
     ++c.materials;
     c.translucent += m->alpha < 1 ? 1 : 0;
     c.unlit += m->unlit ? 1 : 0;
-    textures += m->textures;
+    textures += m->textures.size();
     invisible += m->invisible ? 1 : 0;
     emitting += m->emits ? 1 : 0;
     glossy += m->glossy ? 1 : 0;

@@ -17,6 +17,7 @@
 #include "scene/notes.hpp"
 #include "scene/plain/plain_mesh.hpp"
 #include "scene/plain/ply_values.hpp"
+#include "scene/side_files.hpp"
 
 namespace kage::scene {
 namespace {
@@ -69,7 +70,7 @@ bool lacks_others(const PlyElement& element, Role role) {
 class PlyReader {
  public:
   PlyReader(std::string_view text, const std::filesystem::path& path, const std::string& name)
-      : lines_(text, name), header_(read_ply_header(lines_)), values_(lines_, header_.form) {
+      : lines_(text, name), header_(read_ply_header(lines_)), values_(lines_, header_.form), side_files_(path, false) {
     mesh_.name = path.stem().string();
     mesh_.color = 1;
     mesh_.double_sided = true;  // the format leaves open from which side a face is meant to be seen
@@ -102,6 +103,7 @@ class PlyReader {
   TextLines lines_;
   PlyHeader header_;
   PlyValues values_;
+  SideFiles side_files_;
   PlainMesh mesh_;
   RawScene scene_;
   std::uint64_t vertices_ = 0;
@@ -135,6 +137,8 @@ RawScene PlyReader::run() {
   if (!mesh_.face_colors.empty()) mesh_.face_colors.resize(3 * mesh_.face_count(), 1);  // of elements without colours
   append(mesh_, scene_, counts_);
   write_notes();
+  for (const std::string& texture : header_.textures) side_files_.note_texture(texture);
+  scene_.files = side_files_.files();
   return std::move(scene_);
 }
 
@@ -309,7 +313,7 @@ void PlyReader::write_notes() {
     if (count > 0) notes.push_back(counted(count, one, many) + rest);
   };
   notes.insert(notes.end(), header_.ignored.begin(), header_.ignored.end());
-  add(header_.textures, "texture is", "textures are", " ignored");
+  add(header_.textures.size(), "texture is", "textures are", " ignored");
   for (const std::string& what : ignored_) notes.push_back(what + " is ignored");
   if (both_colored_) notes.emplace_back("the faces' colours are ignored: the vertices' are drawn");
   note_range(bright_, dark_, notes);

@@ -63,9 +63,13 @@ class HeaderReader {
     else if (key == "property")
       read_property(rest);
     else if (key == "comment")
-      header_.textures += take_word(rest) == "TextureFile" ? 1 : 0;
+      read_comment(rest);
     else if (!key.empty() && key != "obj_info")
       read_other(key);
+  }
+
+  void read_comment(std::string_view rest) {
+    if (take_word(rest) == "TextureFile") header_.textures.emplace_back(trimmed(rest));
   }
 
   /// Blender 2.4 left out "comment". In text each element has a line, so that a property which was not understood shows

@@ -37,8 +37,8 @@ struct PlyHeader {
   enum class Form : std::uint8_t { kAscii, kLittle, kBig };
   Form form = Form::kAscii;
   std::vector<PlyElement> elements;
-  std::vector<std::string> ignored;  ///< lines of a text file that are none of the format's, as sentences
-  std::size_t textures = 0;          ///< comments that name a file of a texture, as MeshLab writes them
+  std::vector<std::string> ignored;   ///< lines of a text file that are none of the format's, as sentences
+  std::vector<std::string> textures;  ///< files that comments name, as MeshLab writes them
 };
 
 /// Reads from the first line to the one after "end_header", at which `lines` stands then. Throws Error with the line.

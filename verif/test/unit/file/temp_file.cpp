@@ -9,6 +9,7 @@
 #include <functional>
 #include <string>
 
+#include "file/inputs.hpp"
 #include "file/read_file.hpp"
 #include "kage/error.hpp"
 #include "test/support/catch.hpp"
@@ -137,4 +138,34 @@ TEST_CASE("an output that is a link becomes the file that the link leads to, the
   fs::create_symlink("round", folder.path() / "round");
   const std::string round = (folder.path() / "round").string();
   CHECK(said([&] { TempFiles().add(round); }) == round + ": cannot be written: a link that leads nowhere");
+}
+
+TEST_CASE("no output replaces or removes an input, under whatever name, and whenever it came to be one") {
+  const test::TempDirectory folder;
+  const fs::path input = folder.path() / "scene.bin";
+  const fs::path link = folder.path() / "link.png";
+  const fs::path dots = folder.path() / "." / "scene.bin";
+  put(input, "mine");
+  fs::create_symlink("scene.bin", link);
+  const auto refusal = [](const fs::path& name) { return name.string() + ": this output would overwrite an input"; };
+  {
+    TempFiles early;
+    write_text(early, link.string(), "new");
+    TempFiles going;
+    going.remove(input);
+    keep_input(dots);
+    CHECK(said([&] { early.commit(); }) == refusal(link));
+    CHECK(said([&] { going.commit(); }) == refusal(input));
+  }
+  for (const fs::path& name : {input, link, dots}) {
+    CHECK(said([&] { TempFiles().add(name); }) == refusal(name));
+    CHECK(said([&] { TempFiles().remove(name); }) == refusal(name));
+  }
+  CHECK(read_file(input) == "mine");
+  keep_input(folder.path() / "none");  // no file, so an output may become it
+  keep_input(folder.path());
+  TempFiles files;
+  write_text(files, (folder.path() / "none").string(), "new");
+  files.commit();
+  CHECK(read_file(folder.path() / "none") == "new");
 }

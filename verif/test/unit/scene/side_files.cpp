@@ -4,6 +4,9 @@
 
 #include <unistd.h>
 
+#include <set>
+
+#include "file/real_path.hpp"
 #include "files.hpp"
 #include "test/support/catch.hpp"
 
@@ -163,4 +166,38 @@ TEST_CASE("other formats: an OBJ file's materials and what Assimp opens are conf
   CHECK(f.gltf1("data.bin", false) == "loaded");
   CHECK(f.gltf1("../away/data.bin", true) == "loaded");
   CHECK(f.gltf1("../away/data.bin", false).find("lies outside the file's folder") != std::string::npos);
+}
+
+TEST_CASE("textures are the scene's files, though they are not read and may lie anywhere") {
+  const TempDirectory dir;
+  for (const char* folder : {"home", "away"}) fs::create_directory(dir.path() / folder);
+  for (const char* name : {"home/a.png", "home/b c.png", "home/d.png", "away/e.png", "home/unnamed.png"})
+    (void)dir.write(name, "");
+  const auto textures = [&](const std::string& name, const std::string& text) {
+    std::set<std::string> found;
+    const Scene scene = Scene::load(dir.write("home/" + name, text));
+    for (const fs::path file : scene.files())
+      if (file.extension() == ".png") found.insert(file.lexically_relative(real_path(dir.path())).string());
+    return found;
+  };
+  std::string gltf = test::triangle_gltf(R"("nodes": [{"mesh": 0}])");
+  gltf.insert(gltf.rfind('}'), R"(, "images": [{"uri": "b%20c.png"}, {"uri": "../away/e.png"}, {"uri": "none.png"}])");
+  CHECK(textures("scene.gltf", gltf) == std::set<std::string>{"home/b c.png", "away/e.png"});
+
+  (void)dir.write(
+      "home/look.mtl",
+      "newmtl m\nmap_Kd a.png # wood\nbump -bm 0.5 b c.png\nmap_d C:\\work\\d.png\nrefl -type sphere none.png\n");
+  CHECK(textures("scene.obj", "mtllib look.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") ==
+        std::set<std::string>{"home/a.png", "home/b c.png", "home/d.png"});
+
+  CHECK(textures("scene.ply",
+                 "ply\nformat ascii 1.0\ncomment TextureFile b c.png\ncomment TextureFile none.png\n"
+                 "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+                 "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n") ==
+        std::set<std::string>{"home/b c.png"});
+
+  CHECK(textures("scene.x",
+                 "xof 0303txt 0032\nMesh m { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;;\nMeshMaterialList { 1; 1; 0;;\n"
+                 "Material { 1;0;0;1;; 0; 0;0;0;; 0;0;0;; TextureFilename { \"a.png\"; } } } }\n") ==
+        std::set<std::string>{"home/a.png"});
 }
