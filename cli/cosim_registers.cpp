@@ -19,7 +19,8 @@ constexpr int kBackpressure = 50;
 }  // namespace
 
 std::optional<cosim::Difference> register_difference(const std::filesystem::path& library, const Config& config,
-                                                     const cosim::RtlOptions& options) {
+                                                     const cosim::RtlOptions& options,
+                                                     const std::function<void()>& wait) {
   const std::uint64_t seed = mixed(options.seed);
   std::vector<cosim::KnownFrame> frames;
   for (int i = 0; i < kSound + kDamaged; ++i) {
@@ -32,7 +33,7 @@ std::optional<cosim::Difference> register_difference(const std::filesystem::path
   cosim::Difference d;
   d.frame = cosim::kBehindFrames;
   try {
-    const auto wrong = cosim::wrong_register(*cosim::make_rtl(library, config, own), config, frames);
+    const auto wrong = cosim::wrong_register(*cosim::make_rtl(library, config, own), config, frames, wait);
     if (!wrong) return std::nullopt;
     d.field = "register";
     d.remark = *wrong;

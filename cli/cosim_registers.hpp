@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "cosim/compare.hpp"
@@ -12,8 +13,9 @@ namespace kage::cli {
 
 /// What random:mixed asks of the registers, once its frames are the same: a new core gets some random frames, sound and
 /// damaged, and its registers are held against what they must say (cosim::wrong_register). A difference is one of
-/// cosim::kBehindFrames, with the register in its remark.
+/// cosim::kBehindFrames, with the register in its remark. `wait` as of wrong_register().
 std::optional<cosim::Difference> register_difference(const std::filesystem::path& library, const Config& config,
-                                                     const cosim::RtlOptions& options);
+                                                     const cosim::RtlOptions& options,
+                                                     const std::function<void()>& wait);
 
 }  // namespace kage::cli

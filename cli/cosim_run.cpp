@@ -155,10 +155,17 @@ void SceneRun::count_again(Part& part) {
 /// random:mixed reads and writes registers too, once in a run, behind the frames of all ranges.
 void SceneRun::check_registers(cosim::Report& report) {
   if (!o_.rtl.options.prelude || !report.same || report.frames == 0) return;
-  check_interrupt();
+  const auto wait = [this] {
+    check_interrupt();
+    if (o_.enough && o_.enough()) throw cosim::Enough();
+  };
   cosim::RtlOptions options = o_.rtl.options;
   if (o_.silent) options.text = unheard;  // a silent run is made again if it comes out different
-  report.first_difference = register_difference(model_.library, source_->config(), options);
+  try {
+    report.first_difference = register_difference(model_.library, source_->config(), options, wait);
+  } catch (const cosim::Enough&) {
+    return;  // the run ends with what its frames have shown
+  }
   report.same = !report.first_difference;
 }
 

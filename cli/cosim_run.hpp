@@ -45,9 +45,10 @@ struct CosimCommand : Options {
   bool coverage = false;
   int frame = -1;  // the only one of a scene's, -1: all
   bool no_shrink = false;
-  bool silent = false;           // no line tells how far its frames are
-  std::function<bool()> enough;  // asked before each frame but the first: true ends the run before it
-  bool cache_verdicts = false;   // SceneRun takes and keeps verdicts, where it may
+  bool silent = false;  // no line tells how far its frames are
+  std::function<bool()>
+      enough;  // asked before each frame but the first, and while registers are read: true ends the run there
+  bool cache_verdicts = false;  // SceneRun takes and keeps verdicts, where it may
   const CLI::App* command = nullptr;
 };
 

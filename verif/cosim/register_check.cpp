@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "cosim/register_clocks.hpp"
@@ -21,11 +22,12 @@ constexpr std::uint32_t kWaitingForInput = KAGE_STATUS_OPEN_MASK | KAGE_STATUS_W
 constexpr std::uint32_t kInterrupts = KAGE_IRQ_FRAME_END_MASK | KAGE_IRQ_ERROR_MASK | KAGE_IRQ_WATCHDOG_MASK;
 
 constexpr std::uint32_t kOverlaps = 12;
+constexpr std::size_t kPiece = 512;  // words that are fed between two waits
 
 class Checker : RegisterPort {
  public:
-  Checker(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames)
-      : RegisterPort(rtl), rtl_(rtl), config_(config), frames_(frames) {}
+  Checker(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames, const std::function<void()>& wait)
+      : RegisterPort(rtl), rtl_(rtl), config_(config), frames_(frames), wait_(wait) {}
 
   void all() {
     constants();
@@ -113,7 +115,10 @@ class Checker : RegisterPort {
     for (const KnownFrame& f : frames_) {
       if (f.end.status.width == 0) continue;  // its header is refused: the driver resets the core
       const bool wrong = f.end.status.error != ErrorCode::NONE;
-      rtl_.feed(f.words, kNowhere);
+      for (std::size_t at = 0; at < f.words.size(); at += kPiece) {
+        wait_();
+        rtl_.feed(std::span(f.words).subspan(at, std::min(kPiece, f.words.size() - at)), kNowhere);
+      }
       if (wrong) ++errors_;
       ended();
       if (wrong) newest_error(f.end.status);
@@ -301,6 +306,7 @@ class Checker : RegisterPort {
   RtlCore& rtl_;
   const Config& config_;
   std::span<const KnownFrame> frames_;
+  const std::function<void()>& wait_;
   std::uint32_t count_ = 0;   // of frames that have ended
   std::uint32_t errors_ = 0;  // of them with an error
   std::uint32_t blocked_ = 0;
@@ -315,9 +321,10 @@ KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words, c
   return f;
 }
 
-std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames) {
+std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames,
+                                          const std::function<void()>& wait) {
   try {
-    Checker(rtl, config, frames).all();
+    Checker(rtl, config, frames, wait).all();
   } catch (const WrongRegister& w) {
     return w.what;
   }

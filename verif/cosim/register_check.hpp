@@ -3,6 +3,7 @@
 // The registers held against what rtl/defs/kage.yaml says of them, by what the ports show.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -27,7 +28,8 @@ KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words, c
 /// that are written alone, counters, lost clocks, the newest error, every interrupt with every enable, what the
 /// watchdog says of a standstill, writes to read-only registers, all addresses behind the last register, what a reset
 /// leaves, and accesses in every clock round an event (register_clocks.hpp).
-/// CoreFailure as of Core.
-std::optional<std::string> wrong_register(RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames);
+/// CoreFailure as of Core. `wait` is called often while the frames are fed; what it throws ends the check.
+std::optional<std::string> wrong_register(
+    RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames, const std::function<void()>& wait = [] {});
 
 }  // namespace kage::cosim

@@ -21,6 +21,10 @@ using Words = std::vector<std::uint32_t>;
 constexpr int kMostLines = 40;
 constexpr int kLinesRefused = kMaxHeight + 1;
 
+// Each sample of a line is a sweep over the line's groups of LANES pixels. More sweeps of them take minutes, in the
+// widest core with the most lights, and show no more.
+constexpr int kMostGroupSweeps = 1 << 19;
+
 // A whole token lost, doubled, or put where it does not belong.
 void misplace(Random& random, const Config& c, Words& words) {
   const TokenPlaces places(c, words);
@@ -150,7 +154,9 @@ Words sound_frame(Random& random, const Config& c, std::uint32_t number, Level l
     height = random.in(10, 20);
   }
   Words words;
-  random_frame(random, c, any_width(), height, words, number, style);
+  const int samples = std::max(style.most_samples, style.dark_samples);
+  const int most_width = std::max(c.lanes, kMostGroupSweeps / std::max(samples, 1) * c.lanes);
+  random_frame(random, c, std::min(any_width(), most_width), height, words, number, style);
   return words;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "cost/line_clocks.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "stimulus/coverage.hpp"
@@ -233,6 +234,21 @@ TEST_CASE("a random frame follows from configuration, manner, seed and number al
     // 70 and more of 100 were errors.
     CHECK(seen.size() > 180);
     CHECK(errors > 50);
+  }
+}
+
+// A regression of a minute has some 70 runs of 20 such frames: one that takes minutes of simulation ends it.
+TEST_CASE("no random frame takes a core many clocks, however wide its lines and however many its samples are") {
+  for (const NamedConfig& named : named_configs()) {
+    CAPTURE(named.name);
+    std::uint64_t most = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed)
+      for (int i = 0; i < 120; ++i) {
+        LineClockCounter clocks(named.config);
+        clocks.add(i, RandomFrames(named.config, Manner::sound, seed).words(i));
+        most = std::max(most, clocks.sums().clocks);
+      }
+    CHECK(most < 2'000'000);
   }
 }
 
