@@ -42,7 +42,8 @@ void refuse_pack(const std::string& input) {
   const std::filesystem::path folder(input);
   std::error_code e;
   if (std::filesystem::is_directory(folder, e) && std::filesystem::exists(folder / vectors::kManifest, e))
-    throw Error(fmt::format("{}: a folder of kage vectors is no scene: kage board plays it", input));
+    throw Error(fmt::format(
+        "{}: a folder of kage vectors is no scene: kage board plays it, kage vectors --check reads it", input));
 }
 
 void refuse_repeated(const std::vector<std::string>& inputs) {

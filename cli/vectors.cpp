@@ -288,6 +288,7 @@ void refuse_other_files(const std::filesystem::path& folder) {
 }
 
 int write_pack(const VectorsCommand& o) {
+  refuse_pack(o.input);
   if (o.out.empty() && !o.sizes) throw Error("--out: needed: the folder of the pack (or --sizes, which writes none)");
   check_json(o);
   if (o.cover && o.budget > 0) throw Error("--cover: frames that reach all are not those that fit: no --budget");

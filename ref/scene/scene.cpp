@@ -276,7 +276,8 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
   if (path == name_or_path && fs::status(path, ec).type() == fs::file_type::not_found) {
     std::string names;
     for (const std::string& name : builtin) names += (names.empty() ? "" : ", ") + name;
-    throw Error(shown + ": no such file, and no built-in scene of that name" + meant(shown, builtin) + " (there are " +
+    const std::string named = shown.empty() ? "'" + name_or_path + "'" : shown;  // a name of blanks is to be seen too
+    throw Error(named + ": no such file, and no built-in scene of that name" + meant(shown, builtin) + " (there are " +
                 names + ")");
   }
   data->raw = scene::import_in_child(path, shown, options.allow_outside, options.wait);

@@ -160,7 +160,7 @@ trouble "--device up9k: no core was placed there; there are ecp5-25f" "$kage" pl
 trouble "nowhere.obj" "$kage" plan nowhere.obj
 trouble "random: random frames are for" "$kage" plan random
 mkdir pack && echo "{}" >pack/manifest.json
-trouble "pack: a folder of kage vectors is no scene: kage board plays it" "$kage" plan pack
+trouble "pack: a folder of kage vectors is no scene: kage board plays it, kage vectors --check reads it" "$kage" plan pack
 trouble "a.kage: a stream has its configuration already" "$kage" plan a.kage
 trouble "--max-color 1: no widths keep it, because shares of 16 bits fraction are off by more; --max-color 2 can be kept" "$kage" plan three-lights --size 64x48 --frames 1 --max-color 1
 done_testing

@@ -92,7 +92,10 @@ trouble "--frames" "$kage" render courtyard --frames 0
 trouble "--threads" "$kage" render courtyard --threads 0
 trouble "--netlist" "$kage" cosim courtyard --netlist xilinx
 mkdir pack && echo '{}' >pack/manifest.json
-trouble "pack: a folder of kage vectors is no scene: kage board plays it" "$kage" cosim pack
+for command in cosim vectors; do
+  trouble "pack: a folder of kage vectors is no scene: kage board plays it, kage vectors --check reads it" "$kage" $command pack
+done
+trouble "' ': no such file" "$kage" render ' ' --out none
 trouble "not with --netlist" "$kage" cosim courtyard --netlist ice40 --mutant 3 --size 32x24 --frames 1
 YOSYS=/nowhere trouble "\$YOSYS: \`/nowhere -V\` fails" "$kage" model tiny --netlist ice40
 YOSYS=/bin/false trouble "\$YOSYS: \`/bin/false -V\` fails" "$kage" model tiny --netlist ice40
