@@ -55,6 +55,9 @@ class PackFrames {
   explicit PackFrames(const VectorsCommand& o) : source_(o) {
     if (o.budget > 0 && source_.may_be_refused())
       throw Error(o.input + ": --budget: frames that may break rules have no lines to choose");
+    if (o.budget > 0 && source_.level() == Level::polygons)
+      throw Error(o.input +
+                  ": --budget: a line at the polygon level is nothing without the polygons that begin above it");
     if (!o.sound_only && !source_.is_random()) malformed_ = vectors::malformed_frames(source_.config(), o.seed);
     if (o.budget > 0) choose(o);
     if (o.cover) cover(o);
@@ -431,7 +434,7 @@ int run(const VectorsCommand& o) {
   if (asked != 1) throw Error("vectors: give a SCENE, or --check PACK, or --compare PACK CAPTURE: one of them");
   if (o.frame && o.compare.empty()) throw Error("--frame: only a capture is of one frame: --compare");
   if (o.input.empty() && (!o.out.empty() || o.sizes || o.sound_only || o.no_rtl || o.cover || !o.module.empty() ||
-                          o.budget > 0 || o.size_given || o.frames > 0 || !o.config.empty()))
+                          o.budget > 0 || o.size_given || o.frames > 0 || !o.config.empty() || !o.level_option.empty()))
     throw Error(
         fmt::format("{} takes no option of writing a pack but --json", o.check.empty() ? "--compare" : "--check"));
   if (!o.check.empty()) return check(o);
@@ -448,6 +451,7 @@ void add_vectors(CLI::App& app, Action& action) {
       "  kage vectors courtyard --size 320x240 --sizes\n"
       "  kage vectors courtyard --size 320x240 --budget 16384 --out small\n"
       "  kage vectors random:mixed --frames 500 --cover --config glass --out all\n"
+      "  kage vectors random:mixed --frames 500 --cover --config polygons --front-end rtl --out all\n"
       "  kage vectors courtyard --size 16x12 --frames 1 --module pixel_banked --out module\n"
       "  kage vectors --check pack\n"
       "  kage vectors --compare pack captured.hex\n"
@@ -479,6 +483,7 @@ void add_vectors(CLI::App& app, Action& action) {
       ->check(whole_number())
       ->type_name("N");
   options_of_frames(*c, *o);
+  option_front_end(*c, *o);
   option_json(*c, *o);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

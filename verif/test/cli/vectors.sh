@@ -206,6 +206,8 @@ trouble 'give a SCENE, or --check PACK, or --compare PACK CAPTURE' "$kage" vecto
 trouble '--out: needed' "$kage" vectors courtyard
 trouble '--cover: the RTL must run' "$kage" vectors random --cover --no-rtl --out none
 trouble 'no --budget' "$kage" vectors courtyard --cover --budget 5000 --out none
+trouble '--budget: a line at the polygon level' "$kage" vectors courtyard --front-end rtl --budget 5000 --out none
+trouble '--check takes no option of writing a pack' "$kage" vectors --check p --front-end rtl
 
 trouble 'give a SCENE, or --check PACK' "$kage" vectors courtyard --check p
 trouble '--frame: only a capture is of one frame' "$kage" vectors courtyard --frame 3 --out none

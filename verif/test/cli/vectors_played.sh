@@ -28,6 +28,11 @@ for error in ': RANGE' ', of polygons: RANGE' ', of polygons: PLACE' ', of polyg
   json f/manifest.json "any(f['what'] == 'malformed$error' for f in j['frames'])"
 done
 played f "$source/rtl" "passed: " +seed=5 +stall=20
+# Random frames of both levels.
+make r random:mixed --frames 6 --config front.yaml --front-end rtl --seed 5
+played r "$source/rtl" "passed: " +seed=5 +stall=20
+expect 0 "$kage" vectors random:mixed --frames 30 --config front.yaml --front-end rtl --cover --out both --json both.json
+json both.json 'all(sum(part in p for p in j["lines_of_rtl"]["reached"]) > 5 for part in ("front_merge.sv", "polygon_walk.sv", "volume_ends.sv"))'
 # Every named configuration, where what is not known is X; with Icarus Verilog 11 from such a copy as docs/vectors.md says.
 cp -r "$source/rtl" star
 sed -i 's/\balways_comb\b/always @*/' star/*.sv
