@@ -130,7 +130,7 @@ TEST_CASE("files that are none") {
   CHECK(refusal(missing) == missing + none);
   CHECK(refusal("courtyrad") == "courtyrad" + none_of(" (did you mean courtyard?)"));
   CHECK(refusal(dir.path().string()) == dir.path().string() + ": is a directory");
-  CHECK(refusal("") == none);
+  for (const char* blank : {"", " "}) CHECK(refusal(blank) == fmt::format("'{}'", blank) + none);
   const std::string empty = dir.write("empty.ply", "");
   CHECK(refusal(empty) == empty + ": is empty");
   const std::string fifo = (dir.path() / "fifo.obj").string();
