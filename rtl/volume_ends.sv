@@ -275,7 +275,8 @@ module volume_ends #(
     joined_xr_q <= xr;
     if (rst_ni && !flush_i) begin
       // 1. An item passes, or gives way to one end, or is none.
-      assert (!item_valid || 32'(passes) + 32'(ends_volume) + 32'(ends_sample) + 32'(resolves) + 32'(is_q.none) == 32'd1);
+      assert (!item_valid ||
+              32'(passes) + 32'(ends_volume) + 32'(ends_sample) + 32'(resolves) + 32'(is_q.none) == 32'd1);
       // 2. An item leaves once all that ends before it has ended.
       assert (!(item_valid && leaves && !is_q.none && is_q.behind_volumes) ||
               !(volume_here_q || sample_here_q || any_q));
