@@ -46,8 +46,12 @@ SideFiles::Found SideFiles::find_moved(const std::string& name) const {
 }
 
 // Options, of which some take numbers, cannot be told from a name with blanks: the longest end that is a file is meant.
+// No name of a file is longer than kLongest, and a file of millions of words must not be looked for word by word.
 void SideFiles::note_texture(std::string_view words) const {
-  for (std::size_t at = 0; at != std::string_view::npos;) {
+  constexpr std::size_t kLongest = 4096;
+  constexpr int kMostLookups = 20000;
+  if (words.size() > kLongest) return;
+  for (std::size_t at = 0; at != std::string_view::npos && texture_lookups_ < kMostLookups; ++texture_lookups_) {
     words.remove_prefix(at);
     if (find_moved(std::string(words)).exists) return;
     at = words.find_first_not_of(' ', words.find(' '));

@@ -48,6 +48,7 @@ class SideFiles {
   std::filesystem::path real_;    // the same without links and dots
   bool allow_outside_;
   mutable std::set<std::string> files_;
+  mutable int texture_lookups_ = 0;
 };
 
 }  // namespace kage::scene

@@ -29,11 +29,15 @@ void ObjLibraries::read(const SideFiles::Found& file, std::vector<std::string>& 
   if (!read_.insert(file.path.string()).second) return;
   const std::string name = file.path.filename().string();
   read_mtl(read_file(file.path, name), name, materials_, notes);
+}
+
+std::vector<std::string> ObjLibraries::files() const {
   for (const auto& [material, m] : materials_)
     for (const std::string& texture : m.textures) {
       side_files_.note_texture(texture);
       side_files_.note_texture(without_comment(texture));
     }
+  return side_files_.files();
 }
 
 void ObjLibraries::add(std::string_view names, std::vector<std::string>& notes) {

@@ -33,7 +33,7 @@ class ObjLibraries {
   void fall_back(std::vector<std::string>& notes);
 
   /// The libraries that are there, and the textures that they name.
-  [[nodiscard]] std::vector<std::string> files() const { return side_files_.files(); }
+  [[nodiscard]] std::vector<std::string> files() const;
 
  private:
   void read(const SideFiles::Found& file, std::vector<std::string>& notes);

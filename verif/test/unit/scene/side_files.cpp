@@ -190,6 +190,13 @@ TEST_CASE("textures are the scene's files, though they are not read and may lie 
   CHECK(textures("scene.obj", "mtllib look.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n") ==
         std::set<std::string>{"home/a.png", "home/b c.png", "home/d.png"});
 
+  // Names of millions of words, and millions of names, are not looked for word by word.
+  std::string many = "newmtl m\nmap_Kd";
+  for (int i = 0; i < 1'000'000; ++i) many += " w";
+  for (int i = 0; i < 20'000; ++i) many += "\nmap_Ks -s 1 1 1 none" + std::to_string(i) + ".png";
+  (void)dir.write("home/look.mtl", many);
+  CHECK(textures("scene.obj", "mtllib look.mtl\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").empty());
+
   CHECK(textures("scene.ply",
                  "ply\nformat ascii 1.0\ncomment TextureFile b c.png\ncomment TextureFile none.png\n"
                  "element vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
