@@ -44,7 +44,7 @@ double off(double estimated, int counted) { return 100 * (estimated / counted - 
 
 int run(const AreaCommand& o) {
   reads_files(o.configs);
-  check_json(o);
+  check_json(o, o.json);
   std::vector<NamedConfig> list;
   if (o.configs.empty()) list = named_configs();
   for (const std::string& name : o.configs) list.push_back(load_config(name));
@@ -59,7 +59,7 @@ int run(const AreaCommand& o) {
       done = trade::synthesize(named.config, check_interrupt, o.anew);
       progress.clear();
     }
-    if (!json_only(o)) {
+    if (!json_only(o.json)) {
       const std::string exact = fmt::format("{} bits of RAM, {} bits a pixel", cells.ram_bits, cells.bits_per_pixel);
       if (done)
         fmt::print("{}: {} LUTs (estimated {:+.0f} %), {} flip-flops ({:+.0f} %), {} block RAMs, {} multipliers; {}\n",
@@ -78,7 +78,7 @@ int run(const AreaCommand& o) {
                  {"front_end_terms", named.config.active > 0 ? terms_json(named.config, kFrontEndTermInfo) : nullptr},
                  {"config", cli::to_json(named.config)}});
   }
-  write_json(o, {"kage.area/1", j});
+  write_json(o.json, {"kage.area/1", j});
   return kSame;
 }
 
@@ -98,7 +98,7 @@ void add_area(CLI::App& app, Action& action) {
       ->type_name("NAME|FILE");
   c->add_flag("--estimate", o->estimate, "do not count: print the estimate alone, which kage plan goes by");
   c->add_flag("--anew", o->anew, "count again what is kept");
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -16,6 +16,7 @@
 #include "board/sim_board.hpp"
 #include "board_report.hpp"
 #include "command.hpp"
+#include "cosim/report/report_lock.hpp"
 #include "cosim_print.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
@@ -111,9 +112,9 @@ int run(const BoardCommand& o) {
   check_options(o);
   const vectors::Pack pack = vectors::checked_pack(o.input, vectors::Check::answers, check_interrupt);
   reads_files(vectors::files_of(o.input, pack));
-  check_json(o);
+  check_json(o, o.json);
   std::optional<OutFolder> folder;
-  std::optional<ReportLock> lock;
+  std::optional<report::ReportLock> lock;
   if (!o.out.empty()) {
     folder.emplace(o.out);
     lock.emplace(o.out);
@@ -124,14 +125,15 @@ int run(const BoardCommand& o) {
   const report::RunRecord record = record_of({pack, o.input, o.port, verdict, *o.command}, o.out, files);
   const report::SceneRecord& scene = record.scenes.front();
   try {
-    write_json(o, record, files);
+    write_json(o.json, record, files);
   } catch (const Error&) {
     // No file of the run appears, but what it found is told.
-    if (!json_only(o)) print_finding(scene, "");
+    if (!json_only(o.json)) print_finding(scene, "");
     throw;
   }
-  for (const std::string& note : scene.notes) fmt::print(json_only(o) ? stderr : stdout, "{}: {}\n", scene.scene, note);
-  if (!json_only(o)) {
+  for (const std::string& note : scene.notes)
+    fmt::print(json_only(o.json) ? stderr : stdout, "{}: {}\n", scene.scene, note);
+  if (!json_only(o.json)) {
     print_report(scene, "", o.out);
     print_board(*scene.board);
     if (verdict.first && verdict.first->x >= 0)
@@ -179,7 +181,7 @@ void add_board(CLI::App& app, Action& action) {
   c->add_flag("--leave", o->leave, "leave the board at that, LED 2 on for right and LED 3 for wrong");
   c->add_option("--out", o->out, "folder for pictures, the frames as a stream file, and report.html; default none")
       ->type_name("DIR");
-  option_json(*c, *o);
+  option_json(*c, o->json);
   o->command = c;
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "board/pack_answers.hpp"
+#include "command_lines.hpp"
 #include "cosim/report/html.hpp"
 #include "cosim/report/page.hpp"
+#include "cosim/session/old_evidence.hpp"
+#include "cosim/session/run_page.hpp"
 #include "image/save.hpp"
 #include "kage/diff.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
-#include "old_evidence.hpp"
-#include "report.hpp"
 #include "signals.hpp"
 #include "stream/finish.hpp"
 #include "text.hpp"
@@ -199,7 +200,7 @@ void write_page(const Evidence& evidence, const BoardRun& run, const cosim::Repo
 report::RunRecord record_of(const BoardRun& run, const std::string& out, TempFiles& files) {
   Evidence evidence(run, out, files);
   const cosim::Report found = evidence.report();
-  remove_old_evidence(files, out, evidence.name(), false, {}, found);
+  cosim::remove_old_evidence(files, out, evidence.name(), false, {}, found);
   report::RunRecord all;
   report::SceneRecord& record = all.scenes.emplace_back();
   record.take(found);

@@ -150,7 +150,7 @@ std::string damage_of(const ModelCache& cache, const std::string& key) {
 }
 
 int run(const CacheCommand& o) {
-  check_json(o);
+  check_json(o, o.json);
   const ModelCache cache;
   const cosim::VerdictStore store;
   Json damaged_verdicts = nullptr;
@@ -204,7 +204,7 @@ int run(const CacheCommand& o) {
   if (o.what == "prune") j["verdicts"]["removed"] = gone_verdicts;
   text += text_of_verdicts(j["verdicts"]);
   TempFiles files;
-  finish(o, {"kage.cache/1", j}, files, text);
+  finish(o.json, {"kage.cache/1", j}, files, text);
   return rc;
 }
 
@@ -226,7 +226,7 @@ void add_cache(CLI::App& app, Action& action) {
   c->add_option("--max-size", o->max_size,
                 "prune: the least recently used models, then verdicts, until the others fit, like 500M, 2G")
       ->type_name("SIZE");
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] {
     if (o->what != "prune" && (!o->older_than.empty() || !o->max_size.empty()))
       throw CLI::ValidationError("--older-than, --max-size", "belong to kage cache prune");

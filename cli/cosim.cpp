@@ -2,142 +2,101 @@
 // kage cosim SCENE...: golden model against RTL, frame by frame.
 #include <fmt/format.h>
 
-#include <atomic>
-#include <functional>
+#include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "ci.hpp"
 #include "command.hpp"
+#include "command_lines.hpp"
 #include "cosim/recall.hpp"
+#include "cosim/report/cases.hpp"
+#include "cosim/report/report_lock.hpp"
+#include "cosim/session/session.hpp"
 #include "cosim_print.hpp"
-#include "cosim_run.hpp"
-#include "joined.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "results.hpp"
+#include "rtl_options.hpp"
 #include "signals.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
-#include "workers.hpp"
 
 namespace kage::cli {
 namespace {
 
-using Scenes = std::vector<std::unique_ptr<SceneRun>>;
+struct CosimCommand : cosim::CosimOptions {
+  std::string json;
+  CiOptions ci;
+  const CLI::App* command = nullptr;
+};
 
-/// Opens all scenes, so that what cannot be read is found before the work.
-Scenes open(const CosimCommand& o) {
-  Scenes scenes;
-  std::int64_t frames = 0;
-  int own = 0;
-  for (const std::string& input : o.inputs) {
-    check_interrupt();
-    CosimCommand with_input = o;
-    with_input.input = input;
-    auto scene = std::make_unique<SceneRun>(with_input, frames);
-    const std::string& name = scene->source().name();
-    for (const auto& other : scenes)
-      if (other->source().name() == name)
-        throw Error(fmt::format("{}: a scene called {} is there already: {}", input, name, other->command().input));
-    frames += scene->total();
-    own += scene->frames();
-    scenes.push_back(std::move(scene));
-  }
-  if (own == 0)
-    throw Error(fmt::format("--shard {}/{}: {} {} only {}", o.ci.shard.index, o.ci.shard.count,
-                            scenes.size() == 1 ? scenes.front()->source().name() : "the scenes",
-                            scenes.size() == 1 ? "has" : "have", counted(frames, "frame")));
-  return scenes;
-}
-
-/// Compares all frames of all scenes, on so many threads.
-void compare(const Scenes& scenes, int jobs) {
-  // Jobs that have no scene of their own share one: its frames go to as many ranges.
-  const int ranges = (jobs + static_cast<int>(scenes.size()) - 1) / static_cast<int>(scenes.size());
-  std::vector<std::function<void()>> work;
-  for (const auto& scene : scenes) {
-    scene->prepare(ranges);
-    for (int i = 0; i < scene->ranges(); ++i) work.emplace_back([&scene, i] { scene->run(i); });
-  }
-  std::atomic<std::size_t> next{0};
-  const auto worker = [&] {
-    for (std::size_t i = next++; i < work.size(); i = next++) work[i]();
-  };
-  const Workers others(static_cast<int>(std::min(work.size(), static_cast<std::size_t>(jobs))) - 1, worker);
-  worker();
-}
-
-/// Writes the page over all scenes; its name, or nothing: the verdict stands without it.
-std::optional<std::string> joined_page(const CosimCommand& o, const report::RunRecord& record, SceneRun& last,
-                                       TempFiles& files) {
-  std::string page = (std::filesystem::path(o.out) / "report.html").string();
+/// JUnit and JSON. Throws Error if they cannot be written: then no file of the run appears, but what it found is told.
+void write_reports(const CosimCommand& o, const report::RunRecord& record, TempFiles& files) {
   try {
-    write_joined_page(files, page, record);
-    return page;
-  } catch (const Interrupted&) {
-    last.interrupt();
-    last.note("interrupted after the verdict");
-  } catch (const std::exception& e) {
-    last.note(fmt::format("no report over all scenes was written: {}", e.what()));
+    report::JUnitWriter junit(files, o.ci.junit, "kage cosim");
+    for (const report::SceneRecord& s : record.scenes)
+      if (s.frames != 0) report::junit_frames(junit, {&s});
+    junit.close();
+    write_json(o.json, record, files);
+  } catch (const Error&) {
+    for (const report::SceneRecord& s : record.scenes)
+      if (s.frames != 0 && !json_only(o.json)) print_finding(s, record.several ? s.scene + ": " : "");
+    throw;
   }
-  return std::nullopt;
 }
 
-int run(const CosimCommand& o) {
+void print_scene(const CosimCommand& o, const cosim::Session& session, const report::RunRecord& record,
+                 std::size_t scene) {
+  const report::SceneRecord& s = record.scenes[scene];
+  std::FILE* const to = json_only(o.json) ? stderr : stdout;
+  for (const std::string& note : session.notes(scene)) fmt::print(to, "{}\n", note);
+  if (!json_only(o.json)) print_report(s, record.several ? s.scene + ": " : "", session.folder(scene));
+  // No frame is to blame, so it is the run that repeats it.
+  if (!json_only(o.json) && s.first_difference && !s.first_difference->frame)
+    fmt::print("that run again: {}\n", s.again);
+  if (s.frames != 0) report::annotate_difference(o.ci.annotate, s, to);
+}
+
+void print_totals(const CosimCommand& o, const report::RunRecord& record) {
+  const report::TotalsRecord totals = record.totals();
+  fmt::print("{}: {}, {} of {}{}, {} compared, {}, seed {}\n", totals.same ? "same" : "different",
+             counted(record.scenes.size(), "scene"), counted(totals.frames, "frame"), totals.total_frames,
+             cosim::taken_text(totals.taken), counted(totals.pixels_compared, "pixel"), counted(totals.cycles, "cycle"),
+             o.seed);
+  if (record.page) fmt::print("report: {}\n", *record.page);
+}
+
+int run(CosimCommand& o) {
   const OutFolder folder(o.out);
-  std::optional<ReportLock> lock;
+  std::optional<report::ReportLock> lock;
   if (!o.no_report && !o.out.empty()) lock.emplace(o.out);
   reads_files(o.inputs);
-  check_json(o);
+  check_json(o, o.json);
   check_output(o.ci.junit);
   refuse_twice({file_named(o.json), o.ci.junit,
                 o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
-  const Scenes scenes = open(o);
-  compare(scenes, o.jobs > 0 ? o.jobs : default_jobs());
+  for (const std::string& input : o.inputs) refuse_pack(input);
+  o.lines = command_lines(*o.command);
+  cosim::Session session(o, terminal());
+  session.compare();
   TempFiles files;
-  report::RunRecord record;
-  record.several = scenes.size() > 1;
-  for (const auto& scene : scenes) {
-    record.scenes.push_back(scene->finish(files));
-    if (scene->interrupted() && scene != scenes.back()) throw Interrupted{};
-  }
-  const auto who = [&](const report::SceneRecord& s) { return record.several ? s.scene + ": " : std::string(); };
-  if (record.several && !o.no_report && !o.out.empty()) record.page = joined_page(o, record, *scenes.back(), files);
-  try {
-    JUnitWriter junit(files, o.ci.junit, "kage cosim");
-    for (const report::SceneRecord& s : record.scenes)
-      if (s.frames != 0) junit_frames(junit, {&s});
-    junit.close();
-    write_json(o, record, files);
-  } catch (const Error&) {
-    // No file of the run appears, but what it found is told.
-    for (const report::SceneRecord& s : record.scenes)
-      if (s.frames != 0 && !json_only(o)) print_finding(s, who(s));
-    throw;
-  }
-  for (std::size_t i = 0; i < scenes.size(); ++i) {
-    const report::SceneRecord& s = record.scenes[i];
-    for (const std::string& note : scenes[i]->notes()) fmt::print(json_only(o) ? stderr : stdout, "{}\n", note);
-    if (!json_only(o)) print_report(s, who(s), scenes[i]->command().out);
-    // No frame is to blame, so it is the run that repeats it.
-    if (!json_only(o) && s.first_difference && !s.first_difference->frame) fmt::print("that run again: {}\n", s.again);
-    if (s.frames != 0) annotate_difference(o.ci.annotate, s, json_only(o) ? stderr : stdout);
-  }
-  const report::TotalsRecord totals = record.totals();
-  if (record.several && !json_only(o)) {
-    fmt::print("{}: {}, {} of {}{}, {} compared, {}, seed {}\n", totals.same ? "same" : "different",
-               counted(scenes.size(), "scene"), counted(totals.frames, "frame"), totals.total_frames,
-               cosim::taken_text(totals.taken), counted(totals.pixels_compared, "pixel"),
-               counted(totals.cycles, "cycle"), o.seed);
-    if (record.page) fmt::print("report: {}\n", *record.page);
-  }
-  if (scenes.back()->interrupted()) return interrupted_code();
-  return totals.same ? kSame : kDifferent;
+  const report::RunRecord record = session.finish(files);
+  write_reports(o, record, files);
+  for (std::size_t i = 0; i < session.scenes(); ++i) print_scene(o, session, record, i);
+  if (record.several && !json_only(o.json)) print_totals(o, record);
+  if (session.interrupted()) return interrupted_code();
+  return record.totals().same ? kSame : kDifferent;
 }
 
 }  // namespace
 
-CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
+void add_cosim(CLI::App& app, Action& action) {
+  const auto command = std::make_shared<CosimCommand>();
+  CosimCommand& o = *command;
   CLI::App* c = add_command(
       app, "cosim", "Send every frame through golden model and RTL and compare every pixel",
       "  kage cosim courtyard\n"
@@ -159,7 +118,7 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
   option_scenes(*c, o.inputs, Taken::random);
   c->add_option("--out", o.out, "folder for pictures and report.html, default out")->type_name("DIR");
   options_of_frames(*c, o);
-  option_json(*c, o);
+  option_json(*c, o.json);
   option_front_end(*c, o);
   option_rtl(*c, o.rtl);
   c->add_option(
@@ -175,23 +134,18 @@ CLI::App* cosim_command(CLI::App& app, CosimCommand& o) {
   c->add_flag("--stages", o.stages,
               "run each frame that came out the same again with monitors, and hold what passes between the RTL's "
               "modules against the golden core, token by token and pixel by pixel; slow");
-  option_shard(*c, o.ci.shard);
+  option_shard(*c, o.shard);
   option_junit(*c, o.ci.junit);
   option_annotate(*c, o.ci.annotate);
   c->add_option("--frame", o.frame, "only this frame of each scene, on a core that has seen none before it")
-      ->check(whole_number(0, kMostFrames - 1))
+      ->check(whole_number(0, cosim::kMostFrames - 1))
       ->type_name("K");
   c->add_flag("--no-shrink", o.no_shrink,
               "keep a random frame that comes out different as it is, not as small as it can be made in a minute");
   c->add_flag("--coverage", o.coverage, "print what the frames reach: tokens, borders and extremes of fields, errors");
   c->add_flag("--no-report", o.no_report, "write no report.html");
   o.command = c;
-  return c;
-}
-
-void add_cosim(CLI::App& app, Action& action) {
-  const auto o = std::make_shared<CosimCommand>();
-  cosim_command(app, *o)->callback([o, &action] { action = [o] { return run(*o); }; });
+  c->callback([command, &action] { action = [command] { return run(*command); }; });
 }
 
 }  // namespace kage::cli

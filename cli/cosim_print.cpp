@@ -5,6 +5,7 @@
 
 #include <cerrno>
 
+#include "cosim/diverge/waveform.hpp"
 #include "cosim/recall.hpp"
 #include "kage/error.hpp"
 #include "results.hpp"
@@ -30,7 +31,8 @@ void print_difference(const report::DifferenceRecord& d) {
 
 void print_waveform(const report::DifferenceRecord& d) {
   if (d.waveform && d.divergence)
-    fmt::print("waveform: {}; {}\n", shown(*d.waveform), shown(gtkwave_line(d.divergence->save_file.value_or(""))));
+    fmt::print("waveform: {}; {}\n", shown(*d.waveform),
+               shown(cosim::gtkwave_line(d.divergence->save_file.value_or(""))));
 }
 
 /// The frame that was kept, and how to run it again.
@@ -43,13 +45,6 @@ void print_kept(const report::KeptRecord& kept) {
 }
 
 }  // namespace
-
-ReportLock::ReportLock(const std::string& folder) : lock_(folder, O_RDONLY | O_DIRECTORY) {
-  // Where the file system knows no locks nothing is kept out.
-  if (!lock_.try_lock() && errno == EWOULDBLOCK)
-    throw Error(
-        fmt::format("{}: another run writes its report there: give one of them a folder of its own by --out", folder));
-}
 
 void print_verdict(const report::SceneRecord& s, const std::string& who) {
   if (s.board) {

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What kage cosim prints of a scene's record, and who else may write one meanwhile.
+// What kage cosim prints of a scene's record.
 #pragma once
 
 #include <string>
 
-#include "cosim/model/lock.hpp"
 #include "results.hpp"
 
 namespace kage::cli {
-
-/// While one lives, no other run writes its report into the folder. Throws Error if one does now.
-class ReportLock {
- public:
-  explicit ReportLock(const std::string& folder);
-
- private:
-  cosim::Lock lock_;
-};
 
 /// The first line of a scene: "same: 8 frames, 640x480, ...". `who` begins it.
 void print_verdict(const report::SceneRecord& scene, const std::string& who);

@@ -57,7 +57,7 @@ int run(const DiffCommand& o) {
   if (sort != other)
     throw Error(fmt::format("{}: is {}, and {} is {}: there is nothing to compare", o.b,
                             kWords[static_cast<std::size_t>(other)], o.a, kWords[static_cast<std::size_t>(sort)]));
-  check_json(o);
+  check_json(o, o.json);
   check_outputs(o);
   if (o.bless) {
     if (sort != Sort::folder) throw Error(fmt::format("{}: is no folder: --bless takes two", o.b));
@@ -175,7 +175,7 @@ void add_diff(CLI::App& app, Action& action) {
               "make folder B like folder A: copy files that are new or differ, leave those that are the same");
   c->add_flag("--prune", o->prune, "with --bless: remove pictures and streams that A lacks from B");
   c->add_flag("--dry-run", o->dry_run, "with --bless: only say what would be done");
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, c, &action] {
     for (const CLI::Option* option : c->get_options())
       if (option->count() > 0 && !option->get_lnames().empty()) o->given.push_back("--" + option->get_lnames().front());

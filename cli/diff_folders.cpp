@@ -7,12 +7,12 @@
 #include <optional>
 
 #include "command.hpp"
+#include "cosim/report/junit.hpp"
 #include "diff.hpp"
 #include "file/extension.hpp"
 #include "file/quiet_stderr.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
-#include "junit.hpp"
 #include "kage/bless.hpp"
 #include "kage/error.hpp"
 #include "mapped.hpp"
@@ -178,7 +178,7 @@ int diff_two_folders(const DiffCommand& o) {
   if (pair.files.empty()) throw Error(fmt::format("{} and {}: neither folder holds a file to compare", o.a, o.b));
   Views views(o.out);
   TempFiles files;
-  JUnitWriter junit(files, o.junit, "kage diff");
+  report::JUnitWriter junit(files, o.junit, "kage diff");
   DiffOptions limits = o.limits;
   if (!o.mask.empty()) {
     const QuietStderr quiet;
@@ -227,7 +227,7 @@ int diff_two_folders(const DiffCommand& o) {
   progress.clear();
   junit.close();
   lines += verdict(o, totals, pair);
-  finish(o, {"kage.diff-folders/1", to_json(totals, pair)}, files, lines);
+  finish(o.json, {"kage.diff-folders/1", to_json(totals, pair)}, files, lines);
   return totals.different + totals.different_files == 0 ? kSame : kDifferent;
 }
 
@@ -316,7 +316,7 @@ int bless_folder(const DiffCommand& o) {
   progress.clear();
   const Blessed blessed(o, plan);
   TempFiles files;
-  const auto say = [&] { finish(o, {"kage.diff-bless/1", blessed.json(o)}, files, blessed.text(o)); };
+  const auto say = [&] { finish(o.json, {"kage.diff-bless/1", blessed.json(o)}, files, blessed.text(o)); };
   if (o.dry_run)
     say();
   else

@@ -8,12 +8,12 @@
 #include <cstdio>
 
 #include "command.hpp"
+#include "cosim/report/junit.hpp"
 #include "diff.hpp"
 #include "file/quiet_stderr.hpp"
 #include "file/real_path.hpp"
 #include "image/blink.hpp"
 #include "image/save.hpp"
-#include "junit.hpp"
 #include "kage/error.hpp"
 #include "results.hpp"
 #include "text.hpp"
@@ -117,7 +117,7 @@ Json to_json(const DiffResult& r) {
 
 int diff_two_pictures(const DiffCommand& o) {
   TempFiles files;
-  JUnitWriter junit(files, o.junit, "kage diff");
+  report::JUnitWriter junit(files, o.junit, "kage diff");
   DiffOptions limits = o.limits;
   DiffViews views;
   const Stopwatch watch;
@@ -140,7 +140,7 @@ int diff_two_pictures(const DiffCommand& o) {
   if (heat) text += fmt::format("heat map: {}\n", o.out);
   if (!o.out.empty() && !heat) text += "no heat map: the pictures are unlike\n";
   if (!o.blink.empty()) text += fmt::format("blink picture: {}\n", o.blink);
-  finish(o, {"kage.diff-pictures/1", to_json(result)}, files, text);
+  finish(o.json, {"kage.diff-pictures/1", to_json(result)}, files, text);
   return result.same ? kSame : kDifferent;
 }
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "command.hpp"
+#include "cosim/report/junit.hpp"
 #include "diff.hpp"
-#include "junit.hpp"
 #include "kage/stream_diff.hpp"
 #include "mapped.hpp"
 #include "progress.hpp"
@@ -90,7 +90,7 @@ int diff_two_streams(const DiffCommand& o) {
   const StreamFile a(o.a);
   const StreamFile b(o.b);
   TempFiles files;
-  JUnitWriter junit(files, o.junit, "kage diff");
+  report::JUnitWriter junit(files, o.junit, "kage diff");
   const int frames = std::max(a.frame_count(), b.frame_count());
   Progress progress;
   Stopwatch watch;
@@ -121,7 +121,7 @@ int diff_two_streams(const DiffCommand& o) {
   else
     junit.fail("sections", 0, d.reason);
   junit.close();
-  finish(o, {"kage.diff-streams/1", to_json(d)}, files, describe(d));
+  finish(o.json, {"kage.diff-streams/1", to_json(d)}, files, describe(d));
   return d.same ? kSame : kDifferent;
 }
 

@@ -8,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
+#include "cosim/session/order_build.hpp"
 #include "image/save.hpp"
-#include "order_build.hpp"
 #include "signals.hpp"
+#include "terminal.hpp"
 #include "trade/sweep_accuracy.hpp"
 #include "trade/sweep_run.hpp"
 
@@ -29,11 +30,11 @@ std::string samples_text(const std::vector<int>& samples) {
 
 }  // namespace
 
-ErrorMaps::ErrorMaps(const Options& options, const Source& source) {
-  DrawOptions draw = draw_options(options);
+ErrorMaps::ErrorMaps(const Options& options, const cosim::Source& source) {
+  DrawOptions draw = cosim::draw_options(options);
   draw.frames = source.frames();
   draw.name = source.name();
-  draw.order = order_build(options);
+  draw.order = cosim::order_build(options, terminal());
   point_.config = source.config();
   point_.width = draw.width;
   point_.height = draw.height;

@@ -7,10 +7,10 @@
 #include <memory>
 #include <string>
 
+#include "cosim/session/source.hpp"
 #include "file/temp_file.hpp"
 #include "options.hpp"
 #include "results.hpp"
-#include "source.hpp"
 #include "trade/sweep_scene.hpp"
 
 namespace kage::cli {
@@ -18,7 +18,7 @@ namespace kage::cli {
 class ErrorMaps {
  public:
   /// `source` is of a scene, drawn as the options say.
-  ErrorMaps(const Options& options, const Source& source);
+  ErrorMaps(const Options& options, const cosim::Source& source);
 
   /// Makes the maps of a frame beside its picture: NAME_error.png, and NAME_error_SOURCE.png for each source that has
   /// any error. One of an earlier run for a source that has none now goes.

@@ -10,11 +10,14 @@
 
 #include "command.hpp"
 #include "cosim/diverge/divergence.hpp"
+#include "cosim/session/models.hpp"
+#include "cosim/session/source.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "results.hpp"
-#include "rtl_run.hpp"
-#include "source.hpp"
+#include "rtl_options.hpp"
+#include "terminal.hpp"
 
 namespace kage::cli {
 namespace {
@@ -31,7 +34,7 @@ struct ExplainCommand : Options {
   bool rtl = false;
   bool check = false;
   bool changes = false;
-  RtlRun run;
+  cosim::RtlRun run;
 };
 
 struct Pixel {
@@ -96,9 +99,9 @@ class RtlLines {
   std::size_t next_ = 0;
 };
 
-std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, Source& source, const Pixel& at) {
-  cosim::ReplayOptions options = replay(source.named_config(), o.run, ModelFor::kMonitors);
-  options.rtl.seed = o.seed;
+std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, cosim::Source& source, const Pixel& at) {
+  cosim::ReplayOptions options = cosim::replay(source.named_config(), o.run, cosim::rtl_options(o.run, o.seed),
+                                               cosim::ModelFor::kMonitors, terminal());
   const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
   return cosim::watch_pixel(o.frame, o.frame, feed, source.config(), options, at.x, at.y);
 }
@@ -112,7 +115,7 @@ struct Explained {
   std::vector<cosim::RtlTouch> rtl;              ///< with --rtl
 };
 
-Explained explained(const ExplainCommand& o, Source& source, const Pixel& at) {
+Explained explained(const ExplainCommand& o, cosim::Source& source, const Pixel& at) {
   const Config& config = source.config();
   Explained e{.at = at, .history = {}, .sources = {}, .rtl = {}};
   const std::vector<std::uint32_t> words = source.words(o.frame);
@@ -207,16 +210,16 @@ void print(const Explained& e, const ExplainCommand& o, const Config& config) {
 
 int run(const ExplainCommand& o) {
   if (!o.rtl) refuse_rtl(o.run, "the RTL is run with --rtl only");
-  check_json(o);
+  check_json(o, o.json);
   const Pixel at = parse_pixel(o.pixel);
-  Source source(o);
+  cosim::Source source(o, terminal());
   if (o.frame >= source.frames())
     throw Error(fmt::format("{}: --frame {}: there are frames 0 to {}", o.input, o.frame, source.frames() - 1));
   const Explained e = explained(o, source, at);
   const bool differs = std::any_of(e.rtl.begin(), e.rtl.end(), [](const cosim::RtlTouch& t) { return !t.same; });
-  write_json(o, {"kage.explain/1", to_json(e, o, source.config())});
-  print_notes(source, o);
-  if (!json_only(o)) print(e, o, source.config());
+  write_json(o.json, {"kage.explain/1", to_json(e, o, source.config())});
+  print_notes(source, o.json);
+  if (!json_only(o.json)) print(e, o, source.config());
   return o.check && differs ? kDifferent : kSame;
 }
 
@@ -241,7 +244,7 @@ void add_explain(CLI::App& app, Action& action) {
   c->add_flag("--check", o->check, "exit code 1 if the RTL differs somewhere in the pixel's history")->needs(rtl);
   options_of_frames(*c, *o);
   option_front_end(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   option_rtl(*c, o->run);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

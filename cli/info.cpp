@@ -10,9 +10,12 @@
 #include <optional>
 
 #include "command.hpp"
+#include "cosim/session/frame_progress.hpp"
+#include "cosim/session/source.hpp"
 #include "cost/line_clocks.hpp"
 #include "file/extension.hpp"
 #include "info_scene.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
 #include "kage/explain.hpp"
 #include "kage/stream.hpp"
@@ -22,7 +25,6 @@
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "source.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
@@ -98,7 +100,7 @@ struct Counted {
 Counted count_tokens(const InfoCommand& o, const StreamFile& file, std::optional<LineClockCounter>& clocks) {
   Counted all;
   Progress progress;
-  FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
+  cosim::FrameProgress frame_progress(progress, std::filesystem::path(o.input).filename().string(), file.frame_count());
   for (int i = 0; i < file.frame_count(); ++i) {
     check_interrupt();
     frame_progress.next();
@@ -146,7 +148,7 @@ int describe_stream(const InfoCommand& o) {
     throw Error(
         fmt::format("{}: --tokens {}: the stream has frames 0 to {}", o.input, o.tokens, file.frame_count() - 1));
   std::optional<LineClockCounter> clocks;
-  if (o.clocks) clocks.emplace(stream_config(o, file).config);
+  if (o.clocks) clocks.emplace(cosim::stream_config(o, file).config);
   const auto [counts, unchecked, polygons] = count_tokens(o, file, clocks);
   Json tokens = Json::object();
   for (std::size_t k = 0; k < counts.of_kind.size(); ++k)
@@ -166,13 +168,13 @@ int describe_stream(const InfoCommand& o) {
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
   j["units"] = counts.units;
-  const report::WayRecords ways = ways_of(file, o.input);
+  const report::WayRecords ways = cosim::ways_of(file, o.input);
   j["polyhedra"] = to_json(ways);
   j["bytes"] = file.bytes();
   j["checksum_ok"] = true;  // a wrong one has ended this with an error
   if (clocks) j["clocks"] = to_json(clocks->config(), clocks->sums());
-  write_json(o, {"kage.info-stream/1", j});
-  if (!json_only(o)) {
+  write_json(o.json, {"kage.info-stream/1", j});
+  if (!json_only(o.json)) {
     fmt::print("{}: {}{}, {}, {} over {}, {}, checksums right\n", shown(o.input), counted(file.frame_count(), "frame"),
                unchecked > 0
                    ? fmt::format(" ({} in sections PORT: these may break rules, and are not checked)", unchecked)
@@ -196,7 +198,7 @@ int describe_stream(const InfoCommand& o) {
 }
 
 int run(const InfoCommand& o) {
-  check_json(o);
+  check_json(o, o.json);
   refuse_random(o.input);
   if (!o.config.empty() && !o.clocks)
     throw Error("--config: kage info takes it with --clocks, of a stream, because clocks depend on the core");
@@ -204,7 +206,7 @@ int run(const InfoCommand& o) {
   if (is_stream_file(o.input) || lower_extension(o.input) == ".kage") return describe_stream(o);
   if (o.tokens >= 0) throw Error(fmt::format("{}: --tokens: only a stream file has tokens", o.input));
   if (o.clocks) throw Error(fmt::format("{}: --clocks: only a stream file has tokens that take clocks", o.input));
-  refuse_order_tree(o.input);
+  cosim::refuse_order_tree(o.input);
   return describe_scene(o);
 }
 
@@ -231,7 +233,7 @@ void add_info(CLI::App& app, Action& action) {
       "polygon level those of the core behind the front end alone (docs/timing.md)");
   option_config(*c, *o);
   option_outside(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -8,14 +8,15 @@
 #include <string_view>
 
 #include "command.hpp"
+#include "cosim/session/remarks.hpp"
+#include "cosim/session/source.hpp"
 #include "kage/config.hpp"
 #include "kage/scene.hpp"
 #include "options.hpp"
 #include "pipeline/choose.hpp"
-#include "remarks.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "source.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
@@ -78,7 +79,7 @@ void add_configurations(const Options& o, const Scene& scene, const SceneFrame& 
   j["configurations"] = Json::array();
   j["configuration"] = nullptr;
   j["lacks"] = Json::object();
-  DrawOptions draw = draw_options(o);
+  DrawOptions draw = cosim::draw_options(o);
   draw.frames = scene.frame_count();
   j["costs"] = Json::array();
   for (const ChoiceCost& c : choices(frame, needs, draw))
@@ -99,7 +100,7 @@ void add_configurations(const Options& o, const Scene& scene, const SceneFrame& 
   }
   const std::string line = j["configuration"].is_null() ? widened_config(needs) : std::string();
   j["widened"] = line.empty() ? Json(nullptr) : Json(line);
-  FrameRemarks remarks(config, o.size, o.cull);
+  cosim::FrameRemarks remarks(config, o.size, o.cull);
   const int frames = std::min(scene.frame_count(), kMostFramesLooked);
   for (int i = 0; i < frames; ++i) remarks.add(scene, scene.frame(i, frames));
   j["notes"] = scene.notes();
@@ -159,13 +160,13 @@ void print(const Options& o, const Json& j) {
 }  // namespace
 
 int describe_scene(const Options& o) {
-  const Scene scene = load_scene(o.input, o, 1);
+  const Scene scene = cosim::load_scene(o.input, o, terminal(), 1);
   const SceneFrame frame = scene.frame(0, scene.frame_count());
   Json j = contents_of(scene, frame);
   add_configurations(o, scene, frame, j);
   check_interrupt();
-  write_json(o, {"kage.info-scene/1", j});
-  if (!json_only(o)) print(o, j);
+  write_json(o.json, {"kage.info-scene/1", j});
+  if (!json_only(o.json)) print(o, j);
   return kSame;
 }
 

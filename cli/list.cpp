@@ -54,7 +54,7 @@ std::string about_scene(const std::string& name) {
 }
 
 int run(const ListCommand& o) {
-  check_json(o);
+  check_json(o, o.json);
   struct Entry {
     std::string name;
     std::string about;
@@ -87,7 +87,7 @@ int run(const ListCommand& o) {
     j[group.name] = entries;
   }
   TempFiles files;
-  finish(o, {"kage.list/1", j}, files, text);
+  finish(o.json, {"kage.list/1", j}, files, text);
   return kSame;
 }
 
@@ -103,7 +103,7 @@ void add_list(CLI::App& app, Action& action) {
   c->add_option("WHAT", o->what, "scenes, configs or faults: their names alone; without it: all, with what they are")
       ->check(one_of({"scenes", "configs", "faults"}))
       ->type_name("");
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -11,13 +11,14 @@
 #include "ci.hpp"
 #include "command.hpp"
 #include "cosim/recall.hpp"
+#include "cosim/report/cases.hpp"
+#include "cosim/report/joined.hpp"
+#include "cosim/report/junit.hpp"
+#include "cosim/report/shards.hpp"
 #include "cosim_print.hpp"
-#include "joined.hpp"
-#include "junit.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "results.hpp"
-#include "shards.hpp"
 #include "signals.hpp"
 #include "text.hpp"
 
@@ -31,14 +32,14 @@ struct MergeCommand : Options {
 
 /// What a shard has of a scene.
 struct Part {
-  const ShardFile* shard;
+  const report::ShardFile* shard;
   const report::SceneRecord& scene;
 };
 
 /// Those that have frames of it.
-std::vector<Part> parts_of(const std::vector<ShardFile>& shards, std::size_t scene) {
+std::vector<Part> parts_of(const std::vector<report::ShardFile>& shards, std::size_t scene) {
   std::vector<Part> parts;
-  for (const ShardFile& s : shards)
+  for (const report::ShardFile& s : shards)
     if (s.record.scenes[scene].frames != 0) parts.push_back({&s, s.record.scenes[scene]});
   return parts;
 }
@@ -120,7 +121,7 @@ report::SceneRecord merged(const std::vector<Part>& parts) {
     unite(all.notes, s.notes);
     const auto& d = s.first_difference;
     // That of the register check, which has no frame, comes behind those of all frames.
-    const auto place = [](const report::DifferenceRecord& of) { return of.frame.value_or(kMostFrames); };
+    const auto place = [](const report::DifferenceRecord& of) { return of.frame.value_or(cosim::kMostFrames); };
     if (d && (!all.first_difference || place(*d) < place(*all.first_difference))) all.first_difference = d;
     report::ShardRecord& own = all.shards.emplace_back();
     static_cast<report::PartRecord&>(own) = static_cast<const report::PartRecord&>(s);
@@ -146,17 +147,17 @@ int run(const MergeCommand& o) {
   std::optional<OutFolder> folder;
   if (!o.out.empty()) folder.emplace(o.out);
   reads_files(o.inputs);
-  check_json(o);
+  check_json(o, o.json);
   check_output(o.junit);
   const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string();
   refuse_twice({file_named(o.json), o.junit, page});
   TempFiles files;
-  const std::vector<ShardFile> shards = read_shards(o.inputs);
+  const std::vector<report::ShardFile> shards = report::read_shards(o.inputs, check_interrupt);
   const std::size_t count = shards.front().record.scenes.size();
   report::RunRecord all;
   all.merged = true;
   all.several = shards.front().record.several;
-  JUnitWriter junit(files, o.junit, "kage cosim");
+  report::JUnitWriter junit(files, o.junit, "kage cosim");
   for (std::size_t i = 0; i < count; ++i) {
     check_interrupt();
     const std::vector<Part> parts = parts_of(shards, i);
@@ -164,17 +165,17 @@ int run(const MergeCommand& o) {
     std::vector<const report::SceneRecord*> scenes;
     scenes.reserve(parts.size());
     for (const Part& p : parts) scenes.push_back(&p.scene);
-    junit_frames(junit, scenes);
+    report::junit_frames(junit, scenes);
   }
   junit.close();
   if (!o.out.empty()) {
-    for (const ShardFile& s : shards) keep_page(page, s.file, s.record);
-    write_joined_page(files, page, all);
+    for (const report::ShardFile& s : shards) report::keep_page(page, s.file, s.record);
+    report::write_joined_page(files, page, all, check_interrupt);
     all.page = page;
   }
-  write_json(o, all, files);
+  write_json(o.json, all, files);
   const report::TotalsRecord totals = all.totals();
-  if (json_only(o)) return totals.same ? kSame : kDifferent;
+  if (json_only(o.json)) return totals.same ? kSame : kDifferent;
   const report::SceneRecord& any = all.scenes.front();
   fmt::print("{}: {}{} of {} in {}{}, {}{} compared, {}, seed {}\n", totals.same ? "same" : "different",
              all.several ? counted(count, "scene") + ", " : "", counted(totals.frames, "frame"), totals.total_frames,
@@ -203,7 +204,7 @@ void add_merge(CLI::App& app, Action& action) {
       "Exit code 0: all the same. 1: some different. 2: trouble.");
   const auto o = std::make_shared<MergeCommand>();
   c->add_option("REPORT", o->inputs, "what kage cosim --shard wrote by --json, of each shard")->required();
-  option_json(*c, *o);
+  option_json(*c, o->json);
   option_junit(*c, o->junit);
   c->add_option("--out", o->out, "folder for report.html, the page of the joined run; without it none is written")
       ->type_name("DIR");

@@ -7,13 +7,17 @@
 #include <vector>
 
 #include "command.hpp"
+#include "cosim/session/models.hpp"
+#include "cosim/session/option_names.hpp"
+#include "cosim/session/planned.hpp"
+#include "cosim/session/source.hpp"
 #include "kage/config.hpp"
 #include "kage/scene.hpp"
 #include "options.hpp"
-#include "planned.hpp"
 #include "results.hpp"
-#include "rtl_run.hpp"
+#include "rtl_options.hpp"
 #include "signals.hpp"
+#include "terminal.hpp"
 
 namespace kage::cli {
 namespace {
@@ -29,7 +33,8 @@ struct ModelCommand : Options {
 std::vector<NamedConfig> plans(const ModelCommand& o) {
   std::vector<NamedConfig> list;
   for (const std::string& input : o.planned) {
-    NamedConfig named = planned_config(o, std::make_shared<const Scene>(load_scene(input, o)));
+    NamedConfig named =
+        cosim::planned_config(o, std::make_shared<const Scene>(cosim::load_scene(input, o, terminal())), terminal());
     named.name = fmt::format("plan of {}", input);
     list.push_back(std::move(named));
   }
@@ -39,17 +44,17 @@ std::vector<NamedConfig> plans(const ModelCommand& o) {
 int run(const ModelCommand& o) {
   reads_files(o.configs);
   reads_files(o.planned);
-  check_json(o);
+  check_json(o, o.json);
   std::vector<NamedConfig> list;
   if (o.configs.empty() && o.planned.empty()) list = named_configs();
   for (const std::string& name : o.configs) list.push_back(load_config(name));
   for (NamedConfig& named : plans(o)) list.push_back(std::move(named));
   for (NamedConfig& named : list)
-    if (give_front_end(o, named.config)) named.name += fmt::format(" with ACTIVE {}", named.config.active);
+    if (cosim::give_front_end(o.level, named.config)) named.name += fmt::format(" with ACTIVE {}", named.config.active);
   Json j = Json::array();
   for (const NamedConfig& named : list) {
-    const cosim::Model model = model_of(named, {.fault = o.fault, .netlist = o.netlist, .options = {}});
-    if (!json_only(o))
+    const cosim::Model model = cosim::model_of(named, {.fault = o.fault, .netlist = o.netlist}, terminal());
+    if (!json_only(o.json))
       fmt::print("{}: {} ({})\n", named.name, model.library.string(),
                  model.build_seconds > 0 ? fmt::format("built in {:.0f} s", model.build_seconds) : "was there");
     j.push_back({{"name", named.name},
@@ -57,7 +62,7 @@ int run(const ModelCommand& o) {
                  {"build_seconds", model.build_seconds},
                  {"config", to_json(named.config)}});
   }
-  write_json(o, {"kage.model/1", j});
+  write_json(o.json, {"kage.model/1", j});
   return kSame;
 }
 
@@ -86,7 +91,7 @@ void add_model(CLI::App& app, Action& action) {
   option_fault(*c, o->fault);
   option_netlist(*c, o->netlist);
   option_front_end(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -6,8 +6,8 @@
 
 #include <charconv>
 #include <cstdlib>
-#include <map>
 
+#include "cosim/session/option_names.hpp"
 #include "file/meant.hpp"
 #include "kage/error.hpp"
 #include "kage/frontend.hpp"
@@ -55,13 +55,13 @@ CLI::Validator real_number(double least, double most, const char* least_text) {
           "", "number"};
 }
 
-void option_size(CLI::App& command, Options& options) {
+void option_size(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
           "--size",
           [&options](const std::string& text) {
             const char* const end = text.data() + text.size();
-            Size size;
+            cosim::Size size;
             const auto w = std::from_chars(text.data(), end, size.width);
             if (w.ec != std::errc{} || w.ptr == end || *w.ptr != 'x')
               throw CLI::ValidationError("--size", text + " is not WxH, like 640x480");
@@ -77,15 +77,15 @@ void option_size(CLI::App& command, Options& options) {
       ->type_name("WxH");
 }
 
-static void option_frames(CLI::App& command, Options& options, const char* usual) {
+static void option_frames(CLI::App& command, cosim::SourceOptions& options, const char* usual) {
   command
       .add_option("--frames", options.frames,
                   fmt::format("number of frames, spread over the animation or the camera path, default: {}", usual))
-      ->check(whole_number(1, kMostFrames))
+      ->check(whole_number(1, cosim::kMostFrames))
       ->type_name("N");
 }
 
-void option_config(CLI::App& command, Options& options) {
+void option_config(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option("--config", options.config,
                   "the core's parameters: a name in rtl/defs/configs.yaml, a YAML file of PARAMETER: value lines, or "
@@ -93,14 +93,12 @@ void option_config(CLI::App& command, Options& options) {
       ->type_name("NAME|FILE");
 }
 
-void option_seed(CLI::App& command, Options& options) {
-  command.add_option("--seed", options.seed, "seed of everything random, default 1")
-      ->check(whole_number())
-      ->type_name("S");
+void option_seed(CLI::App& command, std::uint64_t& seed) {
+  command.add_option("--seed", seed, "seed of everything random, default 1")->check(whole_number())->type_name("S");
 }
 
-void option_json(CLI::App& command, Options& options) {
-  command.add_option("--json", options.json, "write the result as JSON; - is standard output, with nothing else on it")
+void option_json(CLI::App& command, std::string& json) {
+  command.add_option("--json", json, "write the result as JSON; - is standard output, with nothing else on it")
       ->type_name(std::string("FILE") + kOrStandardOutput);
 }
 
@@ -114,7 +112,7 @@ static std::string what_is_taken(Taken taken) {
                                   "random:mixed)");
 }
 
-void option_scene(CLI::App& command, Options& options, Taken taken) {
+void option_scene(CLI::App& command, cosim::SourceOptions& options, Taken taken) {
   command.add_option("SCENE", options.input, what_is_taken(taken))->required();
 }
 
@@ -122,36 +120,23 @@ void option_scenes(CLI::App& command, std::vector<std::string>& inputs, Taken ta
   command.add_option("SCENE", inputs, "one or more, each " + what_is_taken(taken))->required();
 }
 
-static void option_degrade(CLI::App& command, Options& options) {
+static void option_degrade(CLI::App& command, cosim::SourceOptions& options) {
   command.add_flag(
       "--degrade", options.degrade,
       "where the configuration lacks something, draw without it (no shadows, those of one light, hard ones; flat, grey "
       "or opaque instead of smooth, coloured or translucent) instead of refusing");
 }
 
-static void option_units_only(CLI::App& command, Options& options) {
+static void option_units_only(CLI::App& command, cosim::SourceOptions& options) {
   command.add_flag(
       "--units-only", options.units_only,
       "refuse a frame in which a convex polyhedron finds no expansion unit, instead of drawing it by spans");
 }
 
-static const std::map<std::string, TranslucentWay>& translucent_ways() {
-  static const std::map<std::string, TranslucentWay> kWays{{"exact", TranslucentWay::exact},
-                                                           {"centroid", TranslucentWay::centroid},
-                                                           {"submission", TranslucentWay::submission}};
-  return kWays;
-}
-
-std::string name_of(TranslucentWay way) {
-  for (const auto& [name, value] : translucent_ways())
-    if (value == way) return name;
-  return {};
-}
-
-static void option_translucent(CLI::App& command, Options& options) {
+static void option_translucent(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
-          "--order", [&options](const std::string& name) { options.order = translucent_ways().at(name); },
+          "--order", [&options](const std::string& name) { options.order = cosim::translucent_ways().at(name); },
           "order of translucent faces, default exact; the others show what cheaper orders get wrong")
       ->option_text("exact|centroid|submission")
       ->check(one_of({"exact", "centroid", "submission"}))
@@ -164,13 +149,13 @@ static void option_translucent(CLI::App& command, Options& options) {
       ->type_name("A");
 }
 
-static void option_cull(CLI::App& command, Options& options) {
+static void option_cull(CLI::App& command, cosim::SourceOptions& options) {
   command.add_flag("--cull", options.cull,
                    "leave out faces of single-sided materials that are turned away from the eye; they cast shadows all "
                    "the same");
 }
 
-static void option_lights(CLI::App& command, Options& options) {
+static void option_lights(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option("--samples", options.samples,
                   fmt::format("points that stand for an area light (a disc, rectangle or sphere); "
@@ -186,7 +171,7 @@ static void option_lights(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
-static void option_sub_bits(CLI::App& command, Options& options) {
+static void option_sub_bits(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option("--sub-bits", options.sub_bits,
                   fmt::format("round positions on the screen to 2^-N pixel, {} to {}; default {}", kLeastSubBits,
@@ -195,7 +180,7 @@ static void option_sub_bits(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
-void option_max_fragments(CLI::App& command, Options& options) {
+void option_max_fragments(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option(
           "--max-fragments", options.max_fragments,
@@ -207,17 +192,12 @@ void option_max_fragments(CLI::App& command, Options& options) {
       ->type_name("N");
 }
 
-static const std::map<std::string, Level>& front_ends() {
-  static const std::map<std::string, Level> kWho{{"host", Level::spans}, {"rtl", Level::polygons}};
-  return kWho;
-}
-
-void option_front_end(CLI::App& command, Options& options) {
+void option_front_end(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
           "--front-end",
           [&options](const std::string& who) {
-            options.level = front_ends().at(who);
+            options.level = cosim::front_ends().at(who);
             options.level_option = "--front-end " + who;
           },
           fmt::format(
@@ -229,35 +209,24 @@ void option_front_end(CLI::App& command, Options& options) {
       ->type_name("WHO");
 }
 
-bool give_front_end(const Options& options, Config& config) {
-  if (options.level != Level::polygons || config.active > 0) return false;
-  config.active = kUsualActive;
-  return true;
-}
-
-void option_threads(CLI::App& command, Options& options) {
+void option_threads(CLI::App& command, cosim::SourceOptions& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
       ->check(whole_number(1, 1024))
       ->type_name("N");
 }
 
-void option_outside(CLI::App& command, Options& options) {
+void option_outside(CLI::App& command, cosim::SourceOptions& options) {
   command.add_flag("--allow-outside", options.allow_outside,
                    "read files that a scene's file names (buffers, materials) wherever they lie, instead of refusing "
                    "those outside its folder");
 }
 
-static const std::map<std::string, Level>& levels() {
-  static const std::map<std::string, Level> kLevels{{"spans", Level::spans}, {"polygons", Level::polygons}};
-  return kLevels;
-}
-
-void option_level(CLI::App& command, Options& options) {
+void option_level(CLI::App& command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
           "--level",
           [&options](const std::string& name) {
-            options.level = levels().at(name);
+            options.level = cosim::levels().at(name);
             options.level_option = "--level";
           },
           fmt::format(
@@ -270,16 +239,6 @@ void option_level(CLI::App& command, Options& options) {
       ->type_name("LEVEL");
 }
 
-static std::string name_in(const std::map<std::string, Level>& names, Level level) {
-  for (const auto& [name, value] : names)
-    if (value == level) return name;
-  return {};
-}
-
-std::string name_of(Level level) { return name_in(levels(), level); }
-
-std::string front_end_of(Level level) { return name_in(front_ends(), level); }
-
 void option_fault(CLI::App& command, std::string& fault) {
   command
       .add_option("--fault", fault,
@@ -287,7 +246,25 @@ void option_fault(CLI::App& command, std::string& fault) {
       ->type_name("NAME");
 }
 
-void options_of_pictures(CLI::App& command, Options& options, const char* frames) {
+void option_cache_verdicts(CLI::App& command, bool& cache) {
+  // Taken as they are read, so that the last one counts.
+  const auto flag = [&](const char* name, bool value, const char* about) {
+    command
+        .add_flag_callback(
+            name, [&cache, value] { cache = value; }, about)
+        ->trigger_on_parse();
+  };
+  flag("--cache-verdicts", true,
+       "skip a frame that an earlier run with this option found the same, if its words, the frame before it (with "
+       "--jobs 1 "
+       "all frames before it), the RTL, the configuration, the stalls and the seed are those of the earlier run. "
+       "Verdicts "
+       "are kept in ~/.cache/kage/verdicts; a run with --fault or --netlist leaves them alone");
+  flag("--no-cache-verdicts", false,
+       "run every frame, also where --cache-verdicts stands before this option; the default");
+}
+
+void options_of_pictures(CLI::App& command, cosim::SourceOptions& options, const char* frames) {
   option_size(command, options);
   option_frames(command, options, frames);
   option_translucent(command, options);
@@ -295,12 +272,12 @@ void options_of_pictures(CLI::App& command, Options& options, const char* frames
   option_max_fragments(command, options);
   option_lights(command, options);
   option_sub_bits(command, options);
-  option_seed(command, options);
+  option_seed(command, options.seed);
   option_threads(command, options);
   option_outside(command, options);
 }
 
-void options_of_frames(CLI::App& command, Options& options) {
+void options_of_frames(CLI::App& command, cosim::SourceOptions& options) {
   option_config(command, options);
   option_degrade(command, options);
   option_units_only(command, options);

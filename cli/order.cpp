@@ -15,16 +15,18 @@
 
 #include "command.hpp"
 #include "cosim/report/html.hpp"
+#include "cosim/session/order_build.hpp"
+#include "cosim/session/source.hpp"
 #include "geometry/order_mesh.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "order/baseline.hpp"
 #include "order/measure.hpp"
-#include "order_build.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "source.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
@@ -40,9 +42,9 @@ struct OrderCommand : Options {
 OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) {
   if (is_order_file(o.input)) return OrderTree::load(o.input);
   progress.show("reading");
-  const Scene scene = load_scene(o.input, o, 1);
+  const Scene scene = cosim::load_scene(o.input, o, terminal(), 1);
   const OrderMesh mesh = order_mesh(scene.frame(0, scene.frame_count()));
-  OrderBuildOptions options = order_build(o, progress, o.input + ": visibility order");
+  OrderBuildOptions options = cosim::order_build(o, terminal(), progress, o.input + ": visibility order");
   options.seed = o.seed;
   const auto start = std::chrono::steady_clock::now();
   try {
@@ -50,7 +52,7 @@ OrderTree make_tree(const OrderCommand& o, Progress& progress, double& seconds) 
     seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return tree;
   } catch (const TooManyFragments& e) {
-    refuse_fragments(o.input, e);
+    cosim::refuse_fragments(o.input, e);
   } catch (const Error& e) {
     throw Error(fmt::format("{}: {}", o.input, e.what()));
   }
@@ -230,7 +232,7 @@ std::string plot(const order::Measured& m, const OrderTree& tree, const std::str
 }
 
 int run(const OrderCommand& o) {
-  check_json(o);
+  check_json(o, o.json);
   refuse_random(o.input);
   TempFiles files;
   std::optional<OutputFile> saved;
@@ -257,7 +259,7 @@ int run(const OrderCommand& o) {
   const order::Measured measured = order::measure(tree, options);
   progress.clear();
   if (!o.plot.empty()) write_text(files, o.plot, plot(measured, tree, o.input));
-  finish(o, {"kage.order/1", to_json(tree, measured, o, build_seconds)}, files,
+  finish(o.json, {"kage.order/1", to_json(tree, measured, o, build_seconds)}, files,
          text_of(tree, measured, o, build_seconds));
   for (const order::MeasureRow& r : measured.rows)
     if (!r.identical) return kDifferent;
@@ -284,10 +286,10 @@ void add_order(CLI::App& app, Action& action) {
   option_max_fragments(*c, *o);
   c->add_option("--save", o->save, "write the tree")->type_name("FILE");
   c->add_option("--plot", o->plot, "write a plot of time against step angle, SVG")->type_name("FILE");
-  option_seed(*c, *o);
+  option_seed(*c, o->seed);
   option_threads(*c, *o);
   option_outside(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

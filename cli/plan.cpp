@@ -14,14 +14,16 @@
 
 #include "command.hpp"
 #include "contract/derived.hpp"
+#include "cosim/session/planned.hpp"
+#include "cosim/session/remarks.hpp"
+#include "cosim/session/source.hpp"
 #include "device_clock.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
-#include "planned.hpp"
 #include "progress.hpp"
-#include "remarks.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "source.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 #include "trade/measured_plan.hpp"
 
@@ -54,10 +56,11 @@ std::string name_of(Prefer prefer) {
 
 PlannedScene open(const PlanCommand& o, const std::string& input, Progress& progress) {
   refuse_random(input);
-  refuse_order_tree(input);
+  cosim::refuse_order_tree(input);
   refuse_pack(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
-  return planned_scene(o, std::make_shared<const Scene>(load_scene(input, o)), progress);
+  return cosim::planned_scene(o, std::make_shared<const Scene>(cosim::load_scene(input, o, terminal())), terminal(),
+                              progress);
 }
 
 PlanOptions options_of(const PlanCommand& o, Progress& progress) {
@@ -77,7 +80,7 @@ PlanOptions options_of(const PlanCommand& o, Progress& progress) {
         "--fps, --total-lines: of a display that the core keeps up with; --clock MHZ or --device NAME says "
         "how fast the core is");
   }
-  options.progress = plan_progress(progress);
+  options.progress = cosim::plan_progress(terminal(), progress);
   return options;
 }
 
@@ -183,14 +186,15 @@ std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const 
   std::vector<std::string> lines;
   for (const PlannedScene& s : scenes) {
     const int frames = s.draw.frames > 0 ? s.draw.frames : s.scene->frame_count();
-    FrameRemarks remarks(plan.config, o.size, o.cull);
-    std::vector<std::string> notes = scene_notes(*s.scene, s.scene->frame(0, frames), o);
+    cosim::FrameRemarks remarks(plan.config, o.size, o.cull);
+    std::vector<std::string> notes = cosim::scene_notes(*s.scene, s.scene->frame(0, frames), o);
     for (int i = 0; i < frames; ++i) {
       check_interrupt();
       remarks.add(*s.scene, s.scene->frame(i, frames));
     }
     for (std::string& note : remarks.notes()) notes.push_back(std::move(note));
-    for (const std::string& note : notes) lines.push_back(fmt::format("{}: {}", plain_name(s.scene->name()), note));
+    for (const std::string& note : notes)
+      lines.push_back(fmt::format("{}: {}", cosim::plain_name(s.scene->name()), note));
   }
   return lines;
 }
@@ -305,7 +309,7 @@ Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::stri
 
 int run(const PlanCommand& o) {
   reads_files(o.inputs);
-  check_json(o);
+  check_json(o, o.json);
   Progress progress;
   std::vector<PlannedScene> scenes;
   refuse_repeated(o.inputs);
@@ -327,8 +331,8 @@ int run(const PlanCommand& o) {
   TempFiles files;
   const std::vector<std::string> notes = notes_of(o, plan, scenes);
   const trade::MeasuredPlan* pictures = measured ? &*measured : nullptr;
-  finish(o, {"kage.plan/1", json_of(o, plan, notes, pictures)}, files, text_of(o, plan, options, notes, pictures));
-  if (json_only(o))
+  finish(o.json, {"kage.plan/1", json_of(o, plan, notes, pictures)}, files, text_of(o, plan, options, notes, pictures));
+  if (json_only(o.json))
     for (const std::string& note : notes) fmt::print(stderr, "{}\n", shown(note));
   return kSame;
 }
@@ -405,7 +409,7 @@ void add_plan(CLI::App& app, Action& action) {
           "who makes spans of polygons, default host: with rtl the core gets a front end, and ACTIVE is the most "
           "polygons that a line has, as far as a front end keeps so many (docs/plan.md)");
   options_of_pictures(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage regress: the recommended runs of kage cosim, in rounds, until the time is over or one comes out different.
+#include "cosim/regress/regress.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,28 +12,42 @@
 
 #include "ci.hpp"
 #include "command.hpp"
+#include "command_lines.hpp"
+#include "cosim/report/cases.hpp"
+#include "cosim/report/joined.hpp"
+#include "cosim/report/report_lock.hpp"
 #include "cosim_print.hpp"
-#include "cosim_run.hpp"
-#include "joined.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
-#include "regress_run.hpp"
 #include "results.hpp"
+#include "rtl_options.hpp"
 #include "signals.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
 namespace {
 
+constexpr const char* kFrontEnd = "--front-end";
+
+struct RegressCommand {
+  cosim::RegressOptions how;
+  cosim::SourceOptions source;  // of which --front-end
+  std::string json;
+  CiOptions ci;
+  bool list = false;  // the runs are told, and none is made
+  const CLI::App* command = nullptr;
+};
+
 /// A case for each run; classname kage.regress.CONFIGURATION.
 void write_junit(TempFiles& files, const std::string& path, const report::RunRecord& record,
-                 const std::optional<Regress::Trouble>& trouble) {
-  JUnitWriter junit(files, path, "kage regress");
+                 const std::optional<cosim::Regress::Trouble>& trouble) {
+  report::JUnitWriter junit(files, path, "kage regress");
   for (const report::SceneRecord& r : record.scenes) {
     junit.group(r.config_name);
     const double seconds = r.golden_seconds + r.rtl_seconds;
     if (r.first_difference)
-      junit_difference(junit, r.scene, seconds, *r.first_difference, r.again);
+      report::junit_difference(junit, r.scene, seconds, *r.first_difference, r.again);
     else
       junit.pass(r.scene, seconds);
   }
@@ -74,7 +90,7 @@ void print_summary(const report::RunRecord& record) {
 }
 
 /// The verdict, and what is known of the run that differs: without its files where those do not appear.
-void print_verdicts(const Regress& regress, const report::RunRecord& record, bool files_appear) {
+void print_verdicts(const cosim::Regress& regress, const report::RunRecord& record, bool files_appear) {
   print_summary(record);
   print_configurations(record);
   if (regress.same()) return;
@@ -88,10 +104,14 @@ void print_verdicts(const Regress& regress, const report::RunRecord& record, boo
 
 /// Page, JUnit and JSON. Throws Error if JUnit or JSON cannot be written: then no file of the regression appears, but
 /// what it found is told. The verdict stands without the page.
-void write_reports(const RegressCommand& o, Regress& regress, report::RunRecord& record, const std::string& page,
+void write_reports(const RegressCommand& o, cosim::Regress& regress, report::RunRecord& record, const std::string& page,
                    TempFiles& files) {
   try {
-    write_joined_page(files, page, record, !regress.interrupted());
+    // What was done until a signal came is written.
+    const bool over = regress.interrupted();
+    report::write_joined_page(files, page, record, [over] {
+      if (!over) check_interrupt();
+    });
     record.page = page;
   } catch (const Interrupted&) {
     regress.interrupt();
@@ -100,39 +120,42 @@ void write_reports(const RegressCommand& o, Regress& regress, report::RunRecord&
   }
   try {
     write_junit(files, o.ci.junit, record, regress.trouble());
-    write_json(o, record, files);
+    write_json(o.json, record, files);
   } catch (const Error&) {
-    if (!json_only(o)) print_verdicts(regress, record, false);
+    if (!json_only(o.json)) print_verdicts(regress, record, false);
     throw;
   }
 }
 
-int run(const RegressCommand& o) {
+int run(RegressCommand& o) {
+  o.how.again = command_line(*o.command);
+  if (o.command->get_option(kFrontEnd)->count() != 0) o.how.level = o.source.level;
   if (o.list) {
-    Regress(o).list(std::max(1, o.rounds));
+    for (const cosim::PlannedRun& run : cosim::Regress(o.how, terminal()).list(std::max(1, o.how.rounds)))
+      fmt::print("{}: {}\n", run.name, run.options.lines.again);
     return kSame;
   }
-  const OutFolder folder(o.out);
-  const ReportLock lock(o.out);
-  reads_files(o.configs);
-  check_json(o);
+  const OutFolder folder(o.how.out);
+  const report::ReportLock lock(o.how.out);
+  reads_files(o.how.configs);
+  check_json(o.source, o.json);
   check_output(o.ci.junit);
-  const std::string page = (std::filesystem::path(o.out) / "report.html").string();
+  const std::string page = (std::filesystem::path(o.how.out) / "report.html").string();
   refuse_twice({file_named(o.json), o.ci.junit, page});
-  Regress regress(o);
+  cosim::Regress regress(o.how, terminal());
   regress.prepare();
-  regress.run(o.jobs > 0 ? o.jobs : default_jobs());
+  regress.run();
   TempFiles files;
   regress.look_into(files);
   report::RunRecord record = regress.record();
   write_reports(o, regress, record, page, files);
-  std::FILE* const to = json_only(o) ? stderr : stdout;
+  std::FILE* const to = json_only(o.json) ? stderr : stdout;
   for (const std::string& note : regress.notes()) fmt::print(to, "{}\n", note);
-  if (!json_only(o)) {
+  if (!json_only(o.json)) {
     print_verdicts(regress, record, true);
     if (record.page) fmt::print("report over all runs: {}\n", shown(*record.page));
   }
-  if (!regress.same()) annotate_difference(o.ci.annotate, regress.different(), to);
+  if (!regress.same()) report::annotate_difference(o.ci.annotate, regress.different(), to);
   if (!regress.same()) return kDifferent;
   if (regress.trouble()) throw Error(regress.trouble()->text);
   return regress.interrupted() ? interrupted_code() : kSame;
@@ -158,41 +181,42 @@ void add_regress(CLI::App& app, Action& action) {
       "Exit code 0: the same. 1: different. 2: trouble. A signal ends it with what was done, and the code is 130\n"
       "(Ctrl-C), 143 (SIGTERM) or 129 (SIGHUP), if no difference was found before.");
   const auto o = std::make_shared<RegressCommand>();
-  o->out = "out";
+  o->how.out = "out";
   auto* const minutes =
-      c->add_option("--minutes", o->minutes, "time to run, default 5; the runs that are under way then end early")
+      c->add_option("--minutes", o->how.minutes, "time to run, default 5; the runs that are under way then end early")
           ->check(real_number(0.01, 10000))
           ->type_name("M");
-  c->add_option("--rounds", o->rounds, "run N rounds instead of a time, so that every machine runs the same")
+  c->add_option("--rounds", o->how.rounds, "run N rounds instead of a time, so that every machine runs the same")
       ->check(whole_number(1, 1000000))
       ->excludes(minutes)
       ->type_name("N");
   auto* const list = c->add_flag("--list", o->list,
                                  "run nothing, but print the runs of the first round, or of --rounds N, as commands")
                          ->excludes(minutes);
-  c->add_option("--config", o->configs,
+  c->add_option("--config", o->how.configs,
                 "a configuration, by name or file; may be given several times. Default: all named ones")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("NAME|FILE");
-  option_seed(*c, *o);
-  option_front_end(*c, *o);
+  option_seed(*c, o->how.seed);
+  option_front_end(*c, o->source);
   c->get_option(kFrontEnd)->description(
       "who makes spans of polygons, default rtl in configurations with a front end (ACTIVE), else host; rtl gives the "
       "others a front end, too (docs/regress.md)");
-  c->add_option("--out", o->out, "folder for report.html and what is found out about a difference, default out")
+  c->add_option("--out", o->how.out, "folder for report.html and what is found out about a difference, default out")
       ->type_name("DIR");
-  option_json(*c, *o);
+  option_json(*c, o->json);
   option_junit(*c, o->ci.junit, "run");
   option_annotate(*c, o->ci.annotate);
   c->add_option(
-       "--jobs", o->jobs,
+       "--jobs", o->how.jobs,
        "runs at a time; default one per processor, at most as many as half of the memory holds 256 MiB for each")
       ->check(whole_number(1, 4096))
       ->type_name("N");
   for (const char* result : {"--json", "--junit", "--annotate", "--jobs"}) list->excludes(c->get_option(result));
-  c->add_flag("--no-divergence", o->no_divergence, "after a difference do not look for the stage that differs first");
-  option_defect(*c, o->rtl);
+  c->add_flag("--no-divergence", o->how.no_divergence,
+              "after a difference do not look for the stage that differs first");
+  option_defect(*c, o->how.rtl);
   o->command = c;
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }

@@ -8,7 +8,10 @@
 #include <optional>
 
 #include "command.hpp"
+#include "cosim/session/frame_progress.hpp"
+#include "cosim/session/source.hpp"
 #include "error_maps.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
 #include "kage/pipeline.hpp"
 #include "options.hpp"
@@ -16,7 +19,7 @@
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "source.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
@@ -29,21 +32,21 @@ struct RenderCommand : Options {
 
 int run(const RenderCommand& o) {
   const OutFolder folder(o.out);
-  check_json(o);
+  check_json(o, o.json);
   refuse_random(o.input);
   if (o.error_map && is_stream_file(o.input))
     throw Error(
         fmt::format("{}: --error-map: what is wrong is told from the scene, which a stream does not hold", o.input));
-  Source source(o);
+  cosim::Source source(o, terminal());
   std::optional<ErrorMaps> errors;
   if (o.error_map) errors.emplace(o, source);
   Renderer renderer(source);
   TokenCounts counts;
   TempFiles files;
   Json names = Json::array();
-  Size size;
+  cosim::Size size;
   Progress progress;
-  FrameProgress frame_progress(progress, source.name(), source.frames());
+  cosim::FrameProgress frame_progress(progress, source.name(), source.frames());
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
     frame_progress.next();
@@ -79,12 +82,12 @@ int run(const RenderCommand& o) {
   j["files"] = names;
   j["errors"] = errors ? errors->json() : Json(nullptr);
   j["notes"] = source.notes();
-  finish(o, {"kage.render/1", j}, files,
+  finish(o.json, {"kage.render/1", j}, files,
          notes_text(source) + (errors ? errors->text() : "") +
              fmt::format("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
                          counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
                          and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), shown(o.out)));
-  if (json_only(o)) print_notes(source, o);
+  if (json_only(o.json)) print_notes(source, o.json);
   return kSame;
 }
 
@@ -107,7 +110,7 @@ void add_render(CLI::App& app, Action& action) {
       "show what is wrong in each picture of a scene, by the exact oracle and the finest picture: "
       "NAME_error.png, and NAME_error_SOURCE.png for each source of error alone; docs/sweep.md has the colours");
   options_of_frames(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -2,12 +2,9 @@
 #include "results.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
-#include <mutex>
 #include <set>
 #include <system_error>
 
@@ -18,21 +15,6 @@
 #include "kage/error.hpp"
 
 namespace kage::cli {
-namespace {
-
-/// The outputs that the run was asked for, as they were named.
-struct Checked {
-  std::mutex mutex;
-  std::vector<std::string> outputs;
-};
-
-Checked& checked() {
-  static Checked all;
-  return all;
-}
-
-}  // namespace
-
 Document::Document(std::string_view schema, const Json& value) {
   const auto named = [&](const Json& object) {
     Json j{{"schema", schema}};
@@ -49,26 +31,22 @@ Document::Document(std::string_view schema, const Json& value) {
 
 std::string file_named(const std::string& output) { return is_standard_output(output) ? "" : output; }
 
-bool json_only(const Options& options) { return is_standard_output(options.json); }
+bool json_only(const std::string& json) { return is_standard_output(json); }
 
 void check_output(const std::string& path) {
   if (path.empty()) return;
   TempFiles file;
   const OutputFile probe(file, path);
-  const std::lock_guard lock(checked().mutex);
-  checked().outputs.push_back(path);
+  expect_output(path);
 }
 
 void reads_files(const std::vector<std::string>& inputs) {
   for (const std::string& input : inputs) keep_input(input);
-  const std::lock_guard lock(checked().mutex);
-  for (const std::string& output : checked().outputs)
-    if (is_input(output)) throw Error(fmt::format("{}: this output would overwrite an input", output));
 }
 
-void check_json(const Options& options) {
+void check_json(const cosim::SourceOptions& options, const std::string& json) {
   reads_files({options.input, options.config});
-  check_output(file_named(options.json));
+  check_output(file_named(json));
 }
 
 void print_whole(const std::string& text) {
@@ -78,11 +56,11 @@ void print_whole(const std::string& text) {
   if (!whole) throw std::system_error(errno != 0 ? errno : EIO, std::generic_category());
 }
 
-void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text) {
-  const std::string json = json_text(document.json(), 2) + "\n";
-  if (!options.json.empty() && !json_only(options)) write_text(files, options.json, json);
+void finish(const std::string& json, const Document& document, TempFiles& files, const std::string& text) {
+  const std::string whole = json_text(document.json(), 2) + "\n";
+  if (!json.empty() && !json_only(json)) write_text(files, json, whole);
   files.place();
-  const std::string& said = json_only(options) ? json : text;
+  const std::string& said = json_only(json) ? whole : text;
   try {
     print_whole(said);
   } catch (const std::system_error& e) {
@@ -91,44 +69,13 @@ void finish(const Options& options, const Document& document, TempFiles& files, 
   files.settle();
 }
 
-void write_json(const Options& options, const Document& document, TempFiles& files) {
-  finish(options, document, files, "");
+void write_json(const std::string& json, const Document& document, TempFiles& files) {
+  finish(json, document, files, "");
 }
 
-void write_json(const Options& options, const Document& document) {
+void write_json(const std::string& json, const Document& document) {
   TempFiles files;
-  write_json(options, document, files);
-}
-
-OutFolder::OutFolder(const std::filesystem::path& path) {
-  namespace fs = std::filesystem;
-  std::error_code ec;
-  std::vector<fs::path> missing;
-  for (fs::path p = path; !p.empty() && !fs::exists(p, ec); p = p.parent_path()) {
-    if (fs::is_symlink(p, ec)) throw Error(fmt::format("{}: a link to nowhere", p.string()));
-    missing.insert(missing.begin(), p);
-  }
-  // One by one, so that a failure half-way leaves none: the destructor of a half-made object does not run.
-  for (const fs::path& p : missing) {
-    if (fs::create_directory(p, ec)) made_.insert(made_.begin(), p);
-    if (ec) break;
-  }
-  if (ec || !fs::is_directory(path, ec)) {
-    remove();
-    throw Error(fmt::format("{}: the folder cannot be made: {}", path.string(), ec ? ec.message() : "not a folder"));
-  }
-  if (::access(path.c_str(), W_OK | X_OK) != 0) {
-    const int error = errno;
-    remove();
-    throw Error(fmt::format("{}: cannot be written to: {}", path.string(), std::strerror(error)));
-  }
-}
-
-OutFolder::~OutFolder() { remove(); }
-
-void OutFolder::remove() {
-  for (const std::filesystem::path& p : made_) (void)::rmdir(p.c_str());  // refuses one with something in it
-  made_.clear();
+  write_json(json, document, files);
 }
 
 void refuse_twice(const std::vector<std::string>& paths) {

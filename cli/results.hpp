@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cosim/report/run_record.hpp"
+#include "file/out_folder.hpp"
 #include "file/temp_file.hpp"
 #include "options.hpp"
 
@@ -32,18 +33,17 @@ class Document {
 /// The file that an output's name means: none, if that is empty or -, standard output.
 std::string file_named(const std::string& output);
 
-/// Whether `--json -` claims standard output for itself.
-bool json_only(const Options& options);
+/// Whether `--json` is -, which claims standard output for itself.
+bool json_only(const std::string& json);
 
-/// Throws Error if a file cannot be written, or is an input: before the work, not after it. An empty path is none.
+/// Throws Error if a file cannot be written, or is an input, one that is read later too: before the work, not after it.
+/// An empty path is none.
 void check_output(const std::string& path);
 
 /// The same of what --json names, which reads_files() the scene's file and the configuration's too.
-void check_json(const Options& options);
+void check_json(const cosim::SourceOptions& options, const std::string& json);
 
-/// These files are read, and no output may take the place of one (file/inputs.hpp). Names of no file (a built-in scene,
-/// a named configuration) are none. Throws Error if check_output() was asked of one of them before: which files a scene
-/// consists of is known once it is read.
+/// keep_input() for each. Names of no file (a built-in scene, a named configuration) are none.
 void reads_files(const std::vector<std::string>& inputs);
 
 /// Writes to standard output, whole. Throws std::system_error with the cause if it cannot.
@@ -51,26 +51,11 @@ void print_whole(const std::string& text);
 
 /// Ends a run: writes `document` where --json says, if it was given, gives all of `files` their names, and prints
 /// `text` unless JSON has standard output. All appear or none: if standard output fails, files are as they were.
-void finish(const Options& options, const Document& document, TempFiles& files, const std::string& text);
+void finish(const std::string& json, const Document& document, TempFiles& files, const std::string& text);
 
 /// The same for a run that prints on its own.
-void write_json(const Options& options, const Document& document, TempFiles& files);
-void write_json(const Options& options, const Document& document);
-
-/// A folder for what a run writes, made with those above it. What was made and is empty in the end is removed again, so
-/// that a run that fails leaves nothing.
-class OutFolder {
- public:
-  /// Throws Error if the folder cannot be made or written to.
-  explicit OutFolder(const std::filesystem::path& path);
-  ~OutFolder();
-  OutFolder(const OutFolder&) = delete;
-  OutFolder& operator=(const OutFolder&) = delete;
-
- private:
-  void remove();
-  std::vector<std::filesystem::path> made_;  // the innermost first
-};
+void write_json(const std::string& json, const Document& document, TempFiles& files);
+void write_json(const std::string& json, const Document& document);
 
 /// Throws Error if two of the files that are to be written, by whatever name, are one. Empty paths are none, and a
 /// device or a pipe may be named more than once, because what it gets replaces nothing.

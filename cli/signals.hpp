@@ -3,6 +3,8 @@
 // The end of a run by Ctrl-C and its like.
 #pragma once
 
+#include "kage/cosim.hpp"
+
 namespace kage::cli {
 
 inline constexpr int kSignalled = 128;  // an exit code after a signal is this and its number, as shells have it
@@ -15,8 +17,9 @@ bool interrupted();
 /// The exit code after such a signal: 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP.
 int interrupted_code();
 
-/// Thrown by check_interrupt() when the flag is set.
-struct Interrupted {};
+using cosim::Interrupted;
+
+/// Throws Interrupted if the flag is set.
 void check_interrupt();
 
 }  // namespace kage::cli

@@ -10,15 +10,19 @@
 #include <optional>
 
 #include "command.hpp"
+#include "cosim/session/frame_progress.hpp"
+#include "cosim/session/option_names.hpp"
+#include "cosim/session/source.hpp"
+#include "inputs.hpp"
 #include "json/json_text.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "source.hpp"
 #include "standard_files.hpp"
 #include "stream/finish.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 
 namespace kage::cli {
@@ -30,18 +34,18 @@ bool piped(const Options& o) { return is_standard_output(o.out); }
 int run(const Options& o) {
   if (piped(o) && isatty(STDOUT_FILENO) != 0)
     throw Error("--out -: standard output is a terminal, which cannot show a stream: send it to a file or a program");
-  if (piped(o) && json_only(o)) throw Error("--out - and --json -: both are standard output");
-  check_json(o);
+  if (piped(o) && json_only(o.json)) throw Error("--out - and --json -: both are standard output");
+  check_json(o, o.json);
   check_output(file_named(o.out));
   refuse_random(o.input);
-  Source source(o);
+  cosim::Source source(o, terminal());
   if (source.is_stream()) source.note("copied from a stream file");
   const Config& config = source.config();
   StreamFileWriter writer =
       piped(o) ? StreamFileWriter(STDOUT_FILENO, "standard output", config) : StreamFileWriter(o.out, config);
   TokenCounts counts;
   Progress progress;
-  FrameProgress frame_progress(progress, source.name(), source.frames());
+  cosim::FrameProgress frame_progress(progress, source.name(), source.frames());
   for (int i = 0; i < source.frames(); ++i) {
     check_interrupt();
     frame_progress.next();
@@ -76,7 +80,7 @@ int run(const Options& o) {
   j["span_pixels"] = counts.span_pixels;
   j["segments"] = counts.of_kind[static_cast<std::size_t>(Kind::SEG)];
   j["words"] = counts.words;
-  j["level"] = name_of(source.level());
+  j["level"] = cosim::name_of(source.level());
   j["polygons"] = o.level == Level::polygons ? source.polygons().json() : Json(nullptr);
   j["config"] = to_json(config);
   j["degraded"] = source.degraded();
@@ -90,12 +94,12 @@ int run(const Options& o) {
               ? fmt::format(" ({})\n{}", counted(counts.words * 4, "byte"), source.polygons().text())
               : "\n";
   if (piped(o)) {
-    finish(o, document, files, "");
+    finish(o.json, document, files, "");
     say(text);
     return kSame;
   }
-  finish(o, document, files, text);
-  if (json_only(o)) print_notes(source, o);
+  finish(o.json, document, files, text);
+  if (json_only(o.json)) print_notes(source, o.json);
   return kSame;
 }
 
@@ -118,7 +122,7 @@ void add_stream(CLI::App& app, Action& action) {
       ->type_name(std::string("FILE") + kOrStandardOutput);
   options_of_frames(*c, *o);
   option_level(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

@@ -11,17 +11,22 @@
 
 #include "ci.hpp"
 #include "command.hpp"
+#include "command_lines.hpp"
+#include "cosim/report/report_lock.hpp"
+#include "cosim/session/option_names.hpp"
+#include "cosim/session/run_page.hpp"
+#include "cosim/session/source.hpp"
 #include "cosim_print.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
 #include "progress.hpp"
-#include "report.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "source.hpp"
 #include "standard_files.hpp"
 #include "sweep_print.hpp"
 #include "sweep_rows.hpp"
 #include "sweep_scenes.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 #include "trade/sweep_page.hpp"
 #include "trade/sweep_plan.hpp"
@@ -38,8 +43,8 @@ bool csv_only(const SweepCommand& o) { return is_standard_output(o.csv); }
 /// The command line that draws what a point's pictures are, with its parameters in a file.
 std::string render_line(const SweepCommand& o, const SweptScene& s, const SweepPoint& p) {
   std::string line =
-      fmt::format("kage render {} --config {} --degrade --size {}x{} --frames {} --order {}", quoted(s.input),
-                  trade::kPageConfig, p.width, p.height, s.scene->frames(), name_of(p.look.translucent));
+      fmt::format("kage render {} --config {} --degrade --size {}x{} --frames {} --order {}", kage::quoted(s.input),
+                  trade::kPageConfig, p.width, p.height, s.scene->frames(), cosim::name_of(p.look.translucent));
   line += fmt::format(" --sub-bits {} --samples {} --classes {} --seed {}", p.look.sub_bits, p.look.samples,
                       p.look.classes, p.look.seed);
   if (o.alpha != 1) line += fmt::format(" --alpha {}", o.alpha);
@@ -58,7 +63,7 @@ struct OutPlace {
   }
   OutFolder folder;
   OutFolder pictures;
-  ReportLock lock;
+  report::ReportLock lock;
 };
 
 /// What --out gets.
@@ -153,11 +158,11 @@ void check_stores(const SweepCommand& o) {
 int run(const SweepCommand& o) {
   if (o.grid && o.axes.empty()) throw Error("--grid: of the axes that --axes names, and there is none");
   const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / trade::kPageName).string();
-  if (csv_only(o) && json_only(o)) throw Error("--csv - and --json -: both are standard output");
+  if (csv_only(o) && json_only(o.json)) throw Error("--csv - and --json -: both are standard output");
   refuse_twice({file_named(o.json), file_named(o.csv), o.store, page});
   reads_files(o.take);
   reads_files(o.inputs);
-  check_json(o);
+  check_json(o, o.json);
   check_output(file_named(o.csv));
   check_stores(o);
   Progress progress;
@@ -198,7 +203,7 @@ int run(const SweepCommand& o) {
   TempFiles files;
   if (!file_named(o.csv).empty()) write_text(files, o.csv, sweep_csv(rows));
   if (!o.out.empty()) write_page(o, scenes, entries, rows, files);
-  finish(o, {kRows, Json(rows)}, files,
+  finish(o.json, {kRows, Json(rows)}, files,
          csv_only(o) ? sweep_csv(rows) : sweep_table(rows) + closing(o, sweep.measured(), rows.size(), page));
   return kSame;
 }
@@ -256,11 +261,11 @@ void add_sweep(CLI::App& app, Action& action) {
                             trade::kPageName))
       ->type_name("DIR");
   options_of_pictures(*c, *o, "two, or the scene's one");
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action, c] {
     // The store has all rows of the page, those that --take brought too.
     o->again = fmt::format("{} --store {} --resume", command_line(*c, {"--store", "--resume", "--take"}),
-                           cli::quoted(o->store));
+                           kage::quoted(o->store));
     action = [o] { return run(*o); };
   });
 }

@@ -8,13 +8,14 @@
 #include <map>
 
 #include "command.hpp"
+#include "cosim/session/option_names.hpp"
+#include "cosim/session/workers.hpp"
 #include "json/foreign_json.hpp"
 #include "json/json_text.hpp"
 #include "kage/error.hpp"
 #include "signals.hpp"
 #include "standard_files.hpp"
 #include "text.hpp"
-#include "workers.hpp"
 
 namespace kage::cli {
 namespace {
@@ -26,7 +27,7 @@ Json look_json(const trade::SweepPoint& p) {
           {"samples", p.look.samples},
           {"samples_drawn", trade::samples_of(p)},
           {"classes", p.look.classes},
-          {"order", name_of(p.look.translucent)},
+          {"order", cosim::name_of(p.look.translucent)},
           {"seed", p.look.seed}};
 }
 
@@ -132,7 +133,7 @@ void Sweep::each(std::vector<Entry>& entries, const std::function<void(Entry&)>&
   std::exception_ptr error;
   std::mutex error_mutex;
   {
-    const Workers workers(std::min(jobs_of(o_), static_cast<int>(entries.size())), [&] {
+    const cosim::Workers workers(std::min(jobs_of(o_), static_cast<int>(entries.size())), [&] {
       for (std::size_t i = next++; i < entries.size(); i = next++) {
         try {
           work(entries[i]);

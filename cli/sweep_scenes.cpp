@@ -10,12 +10,14 @@
 #include <utility>
 
 #include "cosim/model/model.hpp"
+#include "cosim/session/order_build.hpp"
+#include "cosim/session/planned.hpp"
+#include "cosim/session/source.hpp"
 #include "file/meant.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
-#include "order_build.hpp"
-#include "planned.hpp"
 #include "signals.hpp"
-#include "source.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 #include "trade/synthesis.hpp"
 #include "usage.hpp"
@@ -31,10 +33,10 @@ constexpr const char* kPlaceDevice = "ecp5-85f";
 
 Config config_of(const SweepCommand& o, const std::shared_ptr<const Scene>& scene, const DrawOptions& draw) {
   if (o.config.empty()) return choose_config(*scene, draw).config;
-  if (o.config != kPlanned) return load_config(o.config).config;
+  if (o.config != cosim::kPlanned) return load_config(o.config).config;
   Options of = static_cast<const Options&>(o);
   of.frames = draw.frames;
-  return planned_config(of, scene).config;
+  return cosim::planned_config(of, scene, terminal()).config;
 }
 
 SweepPoint base_of(const SweepCommand& o, const std::shared_ptr<const Scene>& scene, const DrawOptions& draw) {
@@ -99,10 +101,10 @@ Tools tools_of(const SweepCommand& o) {
 SweptScene open_swept(const SweepCommand& o, const Tools& tools, const std::string& input, Progress& progress,
                       std::function<void(const std::string&)> doing) {
   refuse_random(input);
-  refuse_order_tree(input);
+  cosim::refuse_order_tree(input);
   if (is_stream_file(input)) throw Error(fmt::format("{}: a stream has its configuration already", input));
-  auto scene = std::make_shared<const Scene>(load_scene(input, o));
-  PlannedScene planned = planned_scene(o, scene, progress);
+  auto scene = std::make_shared<const Scene>(cosim::load_scene(input, o, terminal()));
+  PlannedScene planned = cosim::planned_scene(o, scene, terminal(), progress);
   if (planned.draw.frames == 0) planned.draw.frames = std::min(2, scene->frame_count());
   const int processors = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   planned.draw.threads = std::max(1, (o.threads > 0 ? o.threads : processors) / jobs_of(o));

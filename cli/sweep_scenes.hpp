@@ -27,7 +27,7 @@ struct SweepCommand : Options {
   bool resume = false;
   std::vector<std::string> take;
   std::string csv;
-  Shard shard;
+  cosim::Shard shard;
   int jobs = 0;
   bool no_area = false;
   bool no_cosim = false;

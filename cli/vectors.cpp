@@ -10,17 +10,20 @@
 
 #include "command.hpp"
 #include "cosim/run.hpp"
+#include "cosim/session/frame_progress.hpp"
+#include "cosim/session/models.hpp"
+#include "cosim/session/source.hpp"
 #include "file/hidden_folder.hpp"
 #include "file/read_file.hpp"
+#include "inputs.hpp"
 #include "kage/error.hpp"
 #include "options.hpp"
 #include "pack_history.hpp"
 #include "progress.hpp"
 #include "results.hpp"
-#include "rtl_run.hpp"
 #include "signals.hpp"
-#include "source.hpp"
 #include "standard_files.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 #include "vectors/budget.hpp"
 #include "vectors/capture.hpp"
@@ -52,7 +55,7 @@ struct VectorsCommand : Options {
 /// The frames of a pack: those of the source, then the malformed ones.
 class PackFrames {
  public:
-  explicit PackFrames(const VectorsCommand& o) : source_(o) {
+  explicit PackFrames(const VectorsCommand& o) : source_(o, terminal()) {
     if (o.budget > 0 && source_.may_be_refused())
       throw Error(o.input + ": --budget: frames that may break rules have no lines to choose");
     if (o.budget > 0 && source_.level() == Level::polygons)
@@ -65,7 +68,7 @@ class PackFrames {
   /// With --cover.
   [[nodiscard]] const std::optional<vectors::Cover>& covered() const { return cover_; }
 
-  [[nodiscard]] Source& source() { return source_; }
+  [[nodiscard]] cosim::Source& source() { return source_; }
   [[nodiscard]] int size() const { return sound() + 2 * static_cast<int>(malformed_.size()); }
   /// Whether the registers are read behind a frame with an error. Malformed frames come twice: one by one, then right
   /// behind each other.
@@ -103,9 +106,9 @@ class PackFrames {
  private:
   /// So few of the source's frames that they reach what all reach.
   void cover(const VectorsCommand& o) {
-    const cosim::Model model = model_of(source_.named_config(), {}, ModelFor::kLines);
+    const cosim::Model model = cosim::model_of(source_.named_config(), {}, terminal(), cosim::ModelFor::kLines);
     Progress progress;
-    FrameProgress frame_progress(progress, "lines reached", source_.frames());
+    cosim::FrameProgress frame_progress(progress, "lines reached", source_.frames());
     cover_ = vectors::cover(source_, model.library, o.seed, [&](int) {
       check_interrupt();
       frame_progress.next();
@@ -129,7 +132,7 @@ class PackFrames {
   [[nodiscard]] const vectors::MalformedFrame& damaged(int i) const {
     return malformed_.at(static_cast<std::size_t>(i - sound()) % malformed_.size());
   }
-  Source source_;
+  cosim::Source source_;
   std::vector<vectors::ChosenFrame> chosen_;  // with --budget or --cover
   std::optional<vectors::Cover> cover_;
   std::vector<vectors::MalformedFrame> malformed_;
@@ -137,7 +140,7 @@ class PackFrames {
 
 /// What each frame is, without writing anything.
 std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
-  FrameProgress frame_progress(progress, "measuring", from.size());
+  cosim::FrameProgress frame_progress(progress, "measuring", from.size());
   const Config& config = from.source().config();
   GoldenCore golden(config);
   const LineSink nowhere = [](int, std::span<const std::uint8_t>) {};
@@ -175,12 +178,13 @@ std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
 }
 
 /// The RTL plays the frames and is held against the golden model, as kage cosim does; throws Error at the first
-/// difference.
-void play(PackFrames& from, const RtlRun& rtl, const std::function<void(const cosim::FrameResult&)>& same) {
+/// difference. `ports`: ModelOptions::ports.
+void play(PackFrames& from, const cosim::RtlOptions& rtl, const std::string& ports,
+          const std::function<void(const cosim::FrameResult&)>& same) {
   const NamedConfig& named = from.source().named_config();
-  const cosim::Model model = model_of(named, rtl);
+  const cosim::Model model = cosim::model_of(named, {}, terminal(), cosim::ModelFor::kPixels, ports);
   const std::unique_ptr<cosim::Core> golden = cosim::make_golden(named.config);
-  const std::unique_ptr<cosim::RtlCore> core = cosim::make_rtl(model.library, named.config, rtl.options);
+  const std::unique_ptr<cosim::RtlCore> core = cosim::make_rtl(model.library, named.config, rtl);
   cosim::RunOptions options;
   options.refusals = true;
   options.same = same;
@@ -218,15 +222,14 @@ Json files_json(const std::vector<vectors::PackFile>& files) {
 int write_module_pack(PackFrames& from, const VectorsCommand& o) {
   const NamedConfig& named = from.source().named_config();
   vectors::PortsRecord record(named.config, vectors::pack_module(o.module, named.config));
-  RtlRun rtl;
-  rtl.ports = o.module;
-  rtl.options.seed = o.seed;
-  rtl.options.idle_percent = kModuleStalls;
-  rtl.options.backpressure_percent = kModuleStalls;
-  rtl.options.text = [&](int, std::string_view text) { say(record.text(text)); };
+  cosim::RtlOptions rtl;
+  rtl.seed = o.seed;
+  rtl.idle_percent = kModuleStalls;
+  rtl.backpressure_percent = kModuleStalls;
+  rtl.text = [&](int, std::string_view text) { say(record.text(text)); };
   Progress progress;
-  FrameProgress frame_progress(progress, o.module, from.size());
-  play(from, rtl, [&](const cosim::FrameResult&) { frame_progress.next(); });
+  cosim::FrameProgress frame_progress(progress, o.module, from.size());
+  play(from, rtl, o.module, [&](const cosim::FrameResult&) { frame_progress.next(); });
   progress.clear();
   TempFiles files;
   record.write(o.out, files, from.source().name(), from.size(), "kage " KAGE_VERSION);
@@ -237,7 +240,7 @@ int write_module_pack(PackFrames& from, const VectorsCommand& o) {
   j["frames"] = from.size();
   j["clocks"] = record.clocks();
   j["config"] = to_json(named.config);
-  finish(o, {"kage.vectors-module/1", j}, files,
+  finish(o.json, {"kage.vectors-module/1", j}, files,
          fmt::format("{}{}: {} at the ports of {}, of {}\nrun it: {}\n", notes_text(from.source()), o.out,
                      counted(record.clocks(), "clock"), o.module,
                      counted(static_cast<std::uint64_t>(from.size()), "frame"),
@@ -293,7 +296,7 @@ void refuse_other_files(const std::filesystem::path& folder) {
 int write_pack(const VectorsCommand& o) {
   refuse_pack(o.input);
   if (o.out.empty() && !o.sizes) throw Error("--out: needed: the folder of the pack (or --sizes, which writes none)");
-  check_json(o);
+  check_json(o, o.json);
   if (o.cover && o.budget > 0) throw Error("--cover: frames that reach all are not those that fit: no --budget");
   if (o.cover && o.no_rtl) throw Error("--cover: the RTL must run to tell which of its lines are reached: no --no-rtl");
   if (!o.module.empty() && (o.sizes || o.no_rtl))
@@ -321,27 +324,27 @@ int write_pack(const VectorsCommand& o) {
   if (o.sizes) {
     pack.files = sizes;
     TempFiles none;
-    finish(o, {"kage.vectors/1", summary(pack, "", from.covered())}, none,
+    finish(o.json, {"kage.vectors/1", summary(pack, "", from.covered())}, none,
            text + fmt::format("together {} bytes\n", bytes_of(sizes)));
     return kSame;
   }
   if (!o.no_rtl) {
-    RtlRun rtl;
-    rtl.options.seed = o.seed;
-    play(from, rtl, [&](const cosim::FrameResult& r) {
+    cosim::RtlOptions rtl;
+    rtl.seed = o.seed;
+    play(from, rtl, "", [&](const cosim::FrameResult& r) {
       vectors::PackFrame& frame = pack.frames.at(static_cast<std::size_t>(r.frame));
       // Behind a refused header no pixel comes: its clocks would be those that the driver waits for one.
       if (frame.lines() > 0) frame.clocks = r.cycles;
     });
     pack.rtl_agrees = true;
   }
-  if (!json_only(o))
+  if (!json_only(o.json))
     fmt::print("{}: {}{}, files of some {} bytes\n", shown(o.out), counted(pack.frames.size(), "frame"),
                o.budget > 0 ? fmt::format(", {} of {} bytes for a board", bytes_for_board(pack), o.budget) : "",
                bytes_of(sizes));
   TempFiles files;
   vectors::PackWriter writer(o.out, pack.config, files);
-  FrameProgress frame_progress(progress, pack.scene, from.size());
+  cosim::FrameProgress frame_progress(progress, pack.scene, from.size());
   for (int i = 0; i < from.size(); ++i) {
     frame_progress.next();
     const vectors::PackFrame written = writer.frame(from.what(i), [&](const WordSink& sink) {
@@ -363,16 +366,16 @@ int write_pack(const VectorsCommand& o) {
                   counted(pack.pixels(), "pixel"), counted(pack.reads.size(), "register"),
                   pack.clocks() == 0 ? std::string("clocks not counted") : counted(pack.clocks(), "clock"),
                   shown((std::filesystem::path(o.out) / vectors::kReadme).string()));
-  finish(o, {"kage.vectors/1", summary(pack, o.out, from.covered())}, files, said);
+  finish(o.json, {"kage.vectors/1", summary(pack, o.out, from.covered())}, files, said);
   return kSame;
 }
 
 int check(const VectorsCommand& o) {
-  check_json(o);
+  check_json(o, o.json);
   const vectors::Pack pack = vectors::checked_pack(o.check, vectors::Check::all, check_interrupt);
   reads_files(vectors::files_of(o.check, pack));
   TempFiles none;
-  finish(o, {"kage.vectors/1", summary(pack, o.check, std::nullopt)}, none,
+  finish(o.json, {"kage.vectors/1", summary(pack, o.check, std::nullopt)}, none,
          fmt::format("{}: good: {}, configuration {}, {}, {}\n", shown(o.check), counted(pack.frames.size(), "frame"),
                      shown(pack.config_name), counted(pack.pixels(), "pixel"), counted(pack.files.size(), "file")));
   return kSame;
@@ -400,7 +403,7 @@ std::string text_of(const vectors::CaptureVerdict& v, const vectors::Pack& pack)
 
 int compare(const VectorsCommand& o) {
   reads_files({o.compare.at(1)});
-  check_json(o);
+  check_json(o, o.json);
   const std::string& folder = o.compare.at(0);
   const vectors::Pack pack = vectors::checked_pack(folder, vectors::Check::answers, check_interrupt);
   reads_files(vectors::files_of(folder, pack));
@@ -425,7 +428,7 @@ int compare(const VectorsCommand& o) {
   std::string text = text_of(v, pack);
   if (v.first && v.first->x) text += history_of(pack, folder, v.first->frame, *v.first->x, v.first->line);
   TempFiles none;
-  finish(o, {"kage.vectors-compare/1", j}, none, text);
+  finish(o.json, {"kage.vectors-compare/1", j}, none, text);
   return v.same() ? kSame : kDifferent;
 }
 
@@ -484,7 +487,7 @@ void add_vectors(CLI::App& app, Action& action) {
       ->type_name("N");
   options_of_frames(*c, *o);
   option_front_end(*c, *o);
-  option_json(*c, *o);
+  option_json(*c, o->json);
   c->callback([o, &action] { action = [o] { return run(*o); }; });
 }
 

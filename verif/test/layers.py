@@ -60,20 +60,23 @@ GROUND = {"defs.hpp", "error.hpp", "registers.h"}  # they have no functions else
 ABOVE = {
     "verif/stimulus": ["stimulus", *MODEL],
     "verif/cosim": ["cosim", *MODEL],
+    "verif/cosim/report": ["report", "cosim", *MODEL],
+    "verif/cosim/session": ["session", "report", "cosim", "stimulus", *MODEL],
+    "verif/cosim/regress": ["regress", "session", "report", "cosim", "stimulus", *MODEL],
     "verif/opinion": ["opinion", "kage", "number"],
-    "verif/vectors": ["vectors", "cosim", "stimulus", *MODEL],
-    "verif/board": ["board", "vectors", "cosim", *MODEL],
-    "verif/trade": ["trade", "opinion", "cosim", "stimulus", *MODEL],
+    "verif/vectors": ["vectors", "report", "cosim", "stimulus", *MODEL],
+    "verif/board": ["board", "vectors", "report", "cosim", *MODEL],
+    "verif/trade": ["trade", "opinion", "report", "cosim", "stimulus", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
     "verif/extremes": ["extremes", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/fuzz": ["fuzz", "trade", "vectors", "cosim", "stimulus", *MODEL],
-    "verif/bench": ["bench", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/test": ["test", "extremes", "trade", "board", "vectors", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/fuzz": ["fuzz", "trade", "vectors", "report", "cosim", "stimulus", *MODEL],
+    "verif/bench": ["bench", "report", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/test": ["test", "extremes", "trade", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", "opinion", *MODEL],
     "verif/test/unit/cli": ["test", "cli"],
-    "cli": ["cli", "trade", "board", "vectors", "cosim", "stimulus", *MODEL],
+    "cli": ["cli", "trade", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", *MODEL],
 }
 
-ROOTS = ("ref", "ref/include", "verif", "")  # what includes are named from, but for those of a file's own folder
+ROOTS = ("ref", "ref/include", "verif", "verif/cosim/include", "")  # what includes are named from, but for those of a file's own folder
 
 
 def at_or_below(folder):
@@ -85,7 +88,9 @@ def place(path):
     parts = path.split("/")
     if parts[:3] == ["ref", "include", "kage"]:
         return "kage", "/".join(parts[3:])
-    return parts[0] if parts[0] == "cli" else parts[1], None
+    if parts[0] == "cli":
+        return "cli", None
+    return parts[2] if "/".join(parts[:3]) in ABOVE and parts[:2] != ["verif", "test"] else parts[1], None
 
 
 def may(path, target):
@@ -123,6 +128,11 @@ EXAMPLES = (  # each must be refused
     ("verif/opinion/oracle.cpp", "geometry/plane.hpp"),
     ("verif/bench/shadows.cpp", "test/support/catch.hpp"),
     ("verif/cosim/run.cpp", "opinion/oracle.hpp"),
+    ("verif/cosim/run.cpp", "cosim/session/session.hpp"),
+    ("verif/cosim/run.cpp", "cosim/report/run_record.hpp"),
+    ("verif/cosim/report/joined.cpp", "cosim/session/session.hpp"),
+    ("verif/cosim/session/session.cpp", "cosim/regress/regress.hpp"),
+    ("verif/vectors/pack.cpp", "cosim/session/source.hpp"),
     ("verif/extremes/depth.cpp", "test/support/catch.hpp"),
     ("verif/opinion/oracle.hpp", "extremes/family.hpp"),
     ("verif/bench/shadows.cpp", "extremes/family.hpp"),

@@ -11,7 +11,7 @@ namespace kage::cosim {
 namespace {
 
 // At equal clocks the wiring is to blame first, then small modules, then those that have them within.
-int rank(const kage_rtl_event& part) { return static_cast<int>(kParts.at(part.value[at::part::part]).level); }
+int rank(const kage_rtl_event& part) { return static_cast<int>(kParts.at(part.value[at::part::part]).blame); }
 
 /// The kind of the token that the event is of.
 Kind event_kind(const kage_rtl_event& token) {
@@ -51,7 +51,7 @@ LineSink EventSearch::sink() {
 void EventSearch::header(std::span<const std::uint32_t> words, const LineView& line) {
   const FrameHeader header = FrameHeader::read(words);
   height_ = static_cast<std::uint32_t>(header.height);
-  polygons_ = header.level() == kage::Level::polygons;
+  polygons_ = header.level() == Level::polygons;
   expected_.header(words, line);
 }
 

@@ -164,36 +164,36 @@ enum class Part : std::uint8_t {
   volume_ends,
 };
 /// At equal clocks wiring is to blame first, then leaf modules, then their parents.
-enum class Level : std::uint8_t { wiring, leaf, parent };
+enum class Blame : std::uint8_t { wiring, leaf, parent };
 struct PartInfo {
   std::string_view module;
-  Level level;
+  Blame blame;
 };
 inline constexpr std::array<PartInfo, 24> kParts{{
-    {"ram_1r1w", Level::leaf},
-    {"stream_fifo", Level::leaf},
-    {"skid_buffer", Level::leaf},
-    {"stream_register", Level::leaf},
-    {"compare_cell", Level::leaf},
-    {"light_resolve", Level::leaf},
-    {"pixel_loads", Level::leaf},
-    {"lane_ramp", Level::leaf},
-    {"token_command", Level::parent},
-    {"pixels", Level::parent},
-    {"tree_core", Level::parent},
-    {"kage_top", Level::wiring},
-    {"pixel_core", Level::wiring},
-    {"compare_tree", Level::parent},
-    {"expansion_unit", Level::parent},
-    {"frame_control", Level::parent},
-    {"table_check", Level::parent},
-    {"hls_edge_setup", Level::leaf},
-    {"polygon_token", Level::leaf},
-    {"front_merge", Level::leaf},
-    {"active_list", Level::parent},
-    {"plane_at", Level::leaf},
-    {"polygon_walk", Level::parent},
-    {"volume_ends", Level::parent},
+    {"ram_1r1w", Blame::leaf},
+    {"stream_fifo", Blame::leaf},
+    {"skid_buffer", Blame::leaf},
+    {"stream_register", Blame::leaf},
+    {"compare_cell", Blame::leaf},
+    {"light_resolve", Blame::leaf},
+    {"pixel_loads", Blame::leaf},
+    {"lane_ramp", Blame::leaf},
+    {"token_command", Blame::parent},
+    {"pixels", Blame::parent},
+    {"tree_core", Blame::parent},
+    {"kage_top", Blame::wiring},
+    {"pixel_core", Blame::wiring},
+    {"compare_tree", Blame::parent},
+    {"expansion_unit", Blame::parent},
+    {"frame_control", Blame::parent},
+    {"table_check", Blame::parent},
+    {"hls_edge_setup", Blame::leaf},
+    {"polygon_token", Blame::leaf},
+    {"front_merge", Blame::leaf},
+    {"active_list", Blame::parent},
+    {"plane_at", Blame::leaf},
+    {"polygon_walk", Blame::parent},
+    {"volume_ends", Blame::parent},
 }};
 
 }  // namespace kage::cosim

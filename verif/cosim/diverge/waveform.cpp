@@ -10,6 +10,7 @@
 #include "cosim/diverge/replay.hpp"
 #include "file/lost_pages.hpp"
 #include "file/plain_io.hpp"
+#include "file/shown.hpp"
 #include "file/temp_file.hpp"
 #include "kage/error.hpp"
 
@@ -114,5 +115,7 @@ void write_waveform(Divergence& d, const Feed& feed, const Config& config, const
   d.waveform = name;
   d.save_file = path.string();
 }
+
+std::string gtkwave_line(const std::string& save_file) { return "gtkwave " + quoted(save_file); }
 
 }  // namespace kage::cosim

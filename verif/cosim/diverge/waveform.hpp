@@ -24,4 +24,7 @@ struct Waveform {
 void write_waveform(Divergence& d, const Feed& feed, const Config& config, const ReplayOptions& options,
                     const Waveform& wave);
 
+/// The command line that shows a waveform by its save file.
+std::string gtkwave_line(const std::string& save_file);
+
 }  // namespace kage::cosim

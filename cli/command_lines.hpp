@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Command lines as they were given, for a person to repeat.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "kage/cosim.hpp"
+
+namespace kage::cli {
+
+/// The command line that `command` was given, quoted for a shell, without the options of `leave_out`.
+std::string command_line(const CLI::App& command, const std::vector<std::string>& leave_out = {});
+
+/// Those of a co-simulation that `command` was given, whatever its defaults are.
+cosim::CommandLines command_lines(const CLI::App& command);
+
+}  // namespace kage::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The reports that kage cosim --shard wrote, read again and held against each other.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cosim/report/run_record.hpp"
+
+namespace kage::report {
+
+/// What one shard reported.
+struct ShardFile {
+  std::string file;
+  RunRecord record;
+  ShardNumber number;
+};
+
+/// The files in the order of their shards. Throws Error unless all are whole reports of one run's shards, each there
+/// once: the same scenes, sizes, configurations, seeds and options, and every frame in just one. `wait`
+/// is called before each file; it may throw, which ends it.
+std::vector<ShardFile> read_shards(const std::vector<std::string>& files, const std::function<void()>& wait);
+
+}  // namespace kage::report

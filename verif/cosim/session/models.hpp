@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Models of the RTL, which are built where they are not there, and how a run drives them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "cosim/diverge/divergence.hpp"
+#include "cosim/model/model.hpp"
+#include "cosim/model/rtl.hpp"
+#include "cosim/model/rtl_identity.hpp"
+#include "kage/config.hpp"
+#include "kage/cosim.hpp"
+
+namespace kage::cosim {
+
+/// How such a run drives the RTL: its stalls, its mutant and, by the seed, when it stalls.
+RtlOptions rtl_options(const RtlRun& rtl, std::uint64_t seed);
+
+/// What a model is for besides pixels.
+enum class ModelFor { kPixels, kMonitors, kWaveforms, kLines };
+
+/// The model of a configuration; says how long it takes where it has to be built. Says too, once in the program's life,
+/// if the current folder is of a tree with another rtl/ than the model's. `ports`: ModelOptions::ports.
+Model model_of(const NamedConfig& config, const RtlRun& rtl, Host& host, ModelFor what = ModelFor::kPixels,
+               const std::string& ports = {});
+
+/// The identity of that model's RTL, for kept verdicts. Says the same as model_of().
+RtlIdentity identity_of(const NamedConfig& config, Host& host);
+
+/// Where the RTL is that models are built of.
+std::string rtl_directory();
+
+/// To run it again by such a model, driven as `options` say. Assertions are not looked at: what differs comes before
+/// what they say of it. `host` must outlive the result.
+ReplayOptions replay(const NamedConfig& config, const RtlRun& rtl, const RtlOptions& options, ModelFor what,
+                     Host& host);
+
+}  // namespace kage::cosim

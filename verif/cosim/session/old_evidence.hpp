@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "cosim/run.hpp"
+#include "file/temp_file.hpp"
+
+namespace kage::cosim {
+
+/// What ends the name of the file that a random frame is kept in: the one that differs, or that right ahead of it.
+inline const char* kept_ending(const Difference& d) { return d.ahead ? "_ahead.kage" : ".kage"; }
+
+/// With the new files goes what an earlier run into the folder left of frames that this one has compared: a difference
+/// that is no more, or was another. Of random frames only those that differ leave a picture, and the frame itself.
+void remove_old_evidence(TempFiles& files, const std::string& folder, const std::string& name, bool random,
+                         FrameSteps steps, const Report& r);
+
+}  // namespace kage::cosim
