@@ -212,6 +212,7 @@ int run(const ExplainCommand& o) {
   if (!o.rtl) refuse_rtl(o.run, "the RTL is run with --rtl only");
   check_json(o, o.json);
   const Pixel at = parse_pixel(o.pixel);
+  refuse_pack(o.input);
   cosim::Source source(o, terminal());
   if (o.frame >= source.frames())
     throw Error(fmt::format("{}: --frame {}: there are frames 0 to {}", o.input, o.frame, source.frames() - 1));

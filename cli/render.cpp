@@ -34,6 +34,7 @@ int run(const RenderCommand& o) {
   const OutFolder folder(o.out);
   check_json(o, o.json);
   refuse_random(o.input);
+  refuse_pack(o.input);
   if (o.error_map && is_stream_file(o.input))
     throw Error(
         fmt::format("{}: --error-map: what is wrong is told from the scene, which a stream does not hold", o.input));

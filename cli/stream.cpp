@@ -38,6 +38,7 @@ int run(const Options& o) {
   check_json(o, o.json);
   check_output(file_named(o.out));
   refuse_random(o.input);
+  refuse_pack(o.input);
   cosim::Source source(o, terminal());
   if (source.is_stream()) source.note("copied from a stream file");
   const Config& config = source.config();

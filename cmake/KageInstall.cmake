@@ -5,6 +5,9 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/kage)
 
 install(TARGETS kage kage_order kage_golden EXPORT kageTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
+if(TARGET kage_cosim_package)
+  install(TARGETS kage_cosim_package EXPORT kageTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} FILE_SET HEADERS)
+endif()
 install(EXPORT kageTargets NAMESPACE kage:: DESTINATION ${package_dir})
 configure_package_config_file(${PROJECT_SOURCE_DIR}/cmake/kageConfig.cmake.in ${PROJECT_BINARY_DIR}/kageConfig.cmake
                               INSTALL_DESTINATION ${package_dir})
@@ -58,6 +61,9 @@ endfunction()
 file(RELATIVE_PATH kage_pc_up ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX}) # a prefix may be moved
 kage_pkg_config(kage "kage's golden model, front end and scenes (static)" "kage-order yaml-cpp zlib libpng" "-lkage -ldl")
 kage_pkg_config(kage-order "visibility order by BSP tree (static)" "fmt tbb libhwy" "-lkage_order -pthread")
+if(TARGET kage_cosim_package)
+  kage_pkg_config(kage-cosim "kage's co-simulation of golden model and RTL (static)" "kage libcrypto" "-lkage_cosim")
+endif()
 kage_pkg_config(kage-golden "kage's golden core behind C functions" "" "-lkage_golden")
 
 # The man page and the completions are what the program says of itself.

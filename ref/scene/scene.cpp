@@ -15,6 +15,7 @@
 #include "mesh.hpp"
 #include "notes.hpp"
 #include "number/counted.hpp"
+#include "raw_parts.hpp"
 #include "view.hpp"
 
 namespace kage {
@@ -35,6 +36,11 @@ struct Object {
   std::uint32_t carrier;  // the node that has the mesh
   std::int32_t skin;      // -1: none
 };
+
+/// Which of a list's entries frame `index` of `count` takes.
+std::size_t share_of(int index, int count, std::size_t entries) {
+  return static_cast<std::size_t>(index) * entries / static_cast<std::size_t>(count);
+}
 
 /// A mesh as its node places it.
 scene::Moved placed(const Affine& world, const scene::Mesh& mesh) {
@@ -95,7 +101,11 @@ struct Scene::Data {
   double exposure = 1;
   double end_time = 0;
   bool smooth = false;
+  // Of a program's own scene, frame by frame; none: those of `raw`.
+  std::vector<scene::RawCamera> cameras;
+  std::vector<std::vector<scene::RawLight>> light_sets;
 
+  void build(const std::function<void()>& wait);
   void build_meshes(const std::function<void()>& wait);
   void place_objects();
   void describe();
@@ -105,7 +115,8 @@ struct Scene::Data {
   [[nodiscard]] std::vector<glm::dvec3> points() const;
   void measure();
   void note_large_places();
-  [[nodiscard]] std::vector<Light> lights(const std::vector<Affine>& world) const;
+  [[nodiscard]] std::vector<Light> lights(const std::vector<Affine>& world, int index, int count) const;
+  [[nodiscard]] const scene::RawCamera* camera(int index, int count) const;
   [[nodiscard]] double time(int index, int count) const {
     return raw.start_time + (end_time - raw.start_time) * index / count;
   }
@@ -252,10 +263,17 @@ void Scene::Data::note_large_places() {
         "the scene is so far from the origin, for its size, that its file's numbers are noticeably rounded");
 }
 
-std::vector<Light> Scene::Data::lights(const std::vector<Affine>& world) const {
-  if (raw.lights.empty()) return {scene::default_light()};
+const scene::RawCamera* Scene::Data::camera(int index, int count) const {
+  if (!cameras.empty()) return &cameras[share_of(index, count, cameras.size())];
+  return raw.camera ? &*raw.camera : nullptr;
+}
+
+std::vector<Light> Scene::Data::lights(const std::vector<Affine>& world, int index, int count) const {
+  const std::vector<scene::RawLight>& own =
+      light_sets.empty() ? raw.lights : light_sets[share_of(index, count, light_sets.size())];
+  if (own.empty()) return {scene::default_light()};
   std::vector<Light> all;
-  for (const scene::RawLight& l : raw.lights) all.push_back(scene::file_light(l, world[l.node], frame));
+  for (const scene::RawLight& l : own) all.push_back(scene::file_light(l, world[l.node], frame));
   scene::relative_intensities(all, frame);
   return all;
 }
@@ -284,24 +302,42 @@ Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) 
   data->raw.files.push_back(path.string());
   for (scene::RawMesh& mesh : data->raw.meshes)
     for (scene::RawPrimitive& p : mesh.primitives) p.alpha *= options.alpha;
-  try {
-    data->end_time = scene::end_time(data->raw);
-    std::set<std::uint32_t> moving;
-    for (const scene::RawTrack& track : data->raw.tracks) moving.insert(track.node);
-    data->raw.contents.moving = static_cast<std::uint32_t>(moving.size());
-    data->build_meshes(options.wait);
-    data->place_objects();
-    data->describe();
-    data->measure();
-    data->exposure = scene::exposure(data->lights(scene::pose(data->raw, data->time(0, 1), data->frame)), data->bounds);
-  } catch (const Error& e) {
-    throw Error(shown + ": " + e.what());
-  }
+  data->build(options.wait);
   Scene scene(std::move(data));
   if (options.wait) options.wait();
   (void)scene.frame(0, scene.frame_count());  // what cannot be drawn is to be refused here
   if (options.wait) options.wait();
   return scene;
+}
+
+Scene Scene::from(const SceneParts& parts) {
+  auto data = std::make_unique<Data>();
+  data->name = parts.name;
+  data->place = scene::one_line(parts.name, 300);
+  scene::RawParts raw = scene::raw_parts(parts);
+  data->raw = std::move(raw.scene);
+  data->cameras = std::move(raw.cameras);
+  data->light_sets = std::move(raw.lights);
+  data->build({});
+  Scene scene(std::move(data));
+  for (int i = 0; i < scene.frame_count(); ++i) (void)scene.frame(i, scene.frame_count());
+  return scene;
+}
+
+void Scene::Data::build(const std::function<void()>& wait) {
+  try {
+    end_time = scene::end_time(raw);
+    std::set<std::uint32_t> moving;
+    for (const scene::RawTrack& track : raw.tracks) moving.insert(track.node);
+    raw.contents.moving = static_cast<std::uint32_t>(moving.size());
+    build_meshes(wait);
+    place_objects();
+    describe();
+    measure();
+    exposure = scene::exposure(lights(scene::pose(raw, time(0, 1), frame), 0, 1), bounds);
+  } catch (const Error& e) {
+    throw Error(place + ": " + e.what());
+  }
 }
 
 Scene::Scene(std::unique_ptr<Data> data) : data_(std::move(data)) {}
@@ -342,16 +378,17 @@ SceneFrame Scene::frame(int index, int count) const {
       c.reason = "its node scales it to volume 0";
     }
   }
+  const scene::RawCamera* const camera = d.camera(index, count);
   try {
-    frame.camera = d.raw.camera ? scene::file_camera(*d.raw.camera, world[d.raw.camera->node], d.bounds, d.frame)
-                                : scene::orbit_camera(d.bounds, index, count);
+    frame.camera = camera != nullptr ? scene::file_camera(*camera, world[camera->node], d.bounds, d.frame)
+                                     : scene::orbit_camera(d.bounds, index, count);
   } catch (const Error& e) {
     const std::string node =
-        d.raw.camera ? "node '" + scene::one_line(d.raw.nodes[d.raw.camera->node].name, 60) + "': " : "";
+        camera != nullptr ? "node '" + scene::one_line(d.raw.nodes[camera->node].name, 60) + "': " : "";
     throw Error(d.place + ": " + node + e.what());
   }
   if (!is_finite(frame.camera.eye)) throw Error(d.place + ": the camera's position is not finite");
-  frame.lights = d.lights(world);
+  frame.lights = d.lights(world, index, count);
   for (Light& l : frame.lights) {
     l.color *= d.exposure;
     if (!is_finite(l.position) || !is_finite(l.axis_u) || !is_finite(l.axis_v) || !is_finite(l.color))

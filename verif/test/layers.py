@@ -71,12 +71,30 @@ ABOVE = {
     "verif/extremes": ["extremes", "cosim", "stimulus", "opinion", *MODEL],
     "verif/fuzz": ["fuzz", "trade", "vectors", "report", "cosim", "stimulus", *MODEL],
     "verif/bench": ["bench", "report", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/test": ["test", "extremes", "trade", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/test/unit/cli": ["test", "cli"],
+    "verif/test": [
+        "test",
+        "extremes",
+        "trade",
+        "board",
+        "vectors",
+        "regress",
+        "session",
+        "report",
+        "cosim",
+        "stimulus",
+        "opinion",
+        *MODEL,
+    ],
     "cli": ["cli", "trade", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", *MODEL],
 }
 
-ROOTS = ("ref", "ref/include", "verif", "verif/cosim/include", "")  # what includes are named from, but for those of a file's own folder
+ROOTS = (
+    "ref",
+    "ref/include",
+    "verif",
+    "verif/cosim/include",
+    "",
+)  # what includes are named from, but for those of a file's own folder
 
 
 def at_or_below(folder):
@@ -138,8 +156,7 @@ EXAMPLES = (  # each must be refused
     ("verif/bench/shadows.cpp", "extremes/family.hpp"),
     ("verif/cosim/run.cpp", "../test/support/catch.hpp"),
     ("verif/cosim/run.cpp", "catch.hpp"),
-    ("verif/test/unit/stream/diff.cpp", "progress.hpp"),
-    ("verif/test/unit/cli/progress.cpp", "geometry/plane.hpp"),
+    ("verif/test/unit/stream/diff.cpp", "cli/progress.hpp"),
     ("cli/main.cpp", "test/support/catch.hpp"),
     ("ref/core/core.cpp", "frontend/scan.hpp"),
     ("ref/core/core.cpp", "kage/frontend.hpp"),

@@ -159,7 +159,37 @@ struct SceneOptions {
   std::function<void()> wait = {};
 };
 
-/// A scene loaded from a file.
+/// How faces of a program's own scene look.
+struct Material {
+  glm::dvec3 color{1, 1, 1};  ///< 0 .. 1
+  double alpha = 1;           ///< 0 < alpha <= 1; below 1 they are translucent
+  bool unlit = false;         ///< they show their colour whatever light or shadow falls on them
+  bool double_sided = true;   ///< both sides are meant to be seen: Triangle::sides
+};
+
+/// An object of a program's own scene: triangles, counter-clockwise seen from outside. Positions are single precision,
+/// as in files.
+struct SceneObject {
+  std::string name;                                     ///< for messages
+  std::vector<glm::vec3> positions;                     ///< of its vertices, in world space
+  std::vector<glm::vec3> normals;                       ///< of as many vertices, or none: the faces' are taken
+  std::vector<glm::vec3> colors;                        ///< of as many vertices, 0 .. 1, times the material's; or none
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< into `positions`
+  std::vector<std::uint32_t> materials;  ///< of as many triangles, into SceneParts::materials; or none: the first
+};
+
+/// A scene that a program makes, as a file would hold it.
+struct SceneParts {
+  std::string name = "scene";        ///< pictures are called by it
+  std::vector<SceneObject> objects;  ///< at least one triangle in all
+  std::vector<Material> materials;   ///< none: white
+  /// One for all frames, or one for each; none: an orbit round the scene. Camera::right is made anew.
+  std::vector<Camera> cameras;
+  /// One set for all frames, or one for each, of at most kMaxLights lights; none: a directional light.
+  std::vector<std::vector<Light>> lights;
+};
+
+/// A scene, loaded from a file or made of a program's parts.
 class Scene {
  public:
   /// Loads a file (glTF 2.0, OBJ, PLY, STL, OFF, or what else Assimp reads), or a built-in scene. Throws Error that
@@ -174,6 +204,13 @@ class Scene {
   /// @param options how it is loaded
   /// @return the scene, which does not change any more
   static Scene load(const std::string& name_or_path, const SceneOptions& options = {});
+
+  /// Makes a scene of parts, as load() makes one of a file: corners are welded, bodies found, lights scaled. Nothing is
+  /// forked. Throws Error that names object and place where the parts are no scene.
+  /// @param parts what it consists of
+  /// @return the scene. Where cameras or lights change, it has as many frames as they have sets; of another number of
+  ///         frames each takes the set at its share of the way.
+  static Scene from(const SceneParts& parts);
 
   ~Scene();
   Scene(Scene&&) noexcept;

@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "cosim/session/command_lines.hpp"
-#include "cosim/session/models.hpp"
 #include "cosim/session/option_names.hpp"
 #include "cosim/session/scene_run.hpp"
 #include "cosim/session/workers.hpp"
@@ -15,8 +14,8 @@
 #include "number/counted.hpp"
 
 namespace kage::cosim {
-Regress::Regress(const RegressOptions& o, Host& host)
-    : o_(o), host_(host), start_(Clock::now()), progress_(host.progress()) {
+Regress::Regress(const RegressOptions& o, Host& host, Cores& cores)
+    : o_(o), host_(host), cores_(cores), start_(Clock::now()), progress_(host.progress()) {
   if (o_.configs.empty()) configs_ = named_configs();
   for (const std::string& name : o_.configs) configs_.push_back(load_config(name));
 }
@@ -33,7 +32,7 @@ void Regress::prepare() {
   for (NamedConfig c : configs_) {
     host_.check();
     (void)give_front_end(o_.level.value_or(Level::spans), c.config);
-    build_seconds_ += model_of(c, o_.rtl, host_).build_seconds;
+    build_seconds_ += cores_.model(c, o_.rtl, host_).build_seconds;
   }
   start_ = Clock::now();
 }
@@ -96,7 +95,7 @@ void Regress::repeat(TempFiles& files) {
   again.lines = command_lines(again);
   again.out = folder.string();
   again.no_divergence = o_.no_divergence;
-  SceneRun scene(again, host_, 0);
+  SceneRun scene(again, host_, cores_, 0);
   scene.prepare(1);
   scene.run(0);
   report::SceneRecord record = scene.finish(files);
@@ -156,7 +155,7 @@ void Regress::run_one(int index, PlannedRun plan) {
   o.no_report = o.no_divergence = o.silent = true;
   o.threads = 1;  // of this run; the others have the processors
   o.enough = [this, index] { return time_is_over() || index > end_; };
-  SceneRun scene(o, host_, 0);
+  SceneRun scene(o, host_, cores_, 0);
   scene.prepare(1);
   scene.run(0);
   TempFiles none;

@@ -19,6 +19,7 @@
 
 #include "cosim/regress/plan.hpp"
 #include "cosim/report/run_record.hpp"
+#include "cosim/session/cores.hpp"
 #include "file/temp_file.hpp"
 #include "kage/config.hpp"
 
@@ -37,8 +38,8 @@ struct RegressOptions : RegressRun {
 
 class Regress {
  public:
-  /// Both must outlive it.
-  Regress(const RegressOptions& o, Host& host);
+  /// All must outlive it.
+  Regress(const RegressOptions& o, Host& host, Cores& cores = rtl_cores());
 
   /// The runs of the first rounds.
   [[nodiscard]] std::vector<PlannedRun> list(int rounds) const;
@@ -94,6 +95,7 @@ class Regress {
 
   const RegressOptions& o_;
   Host& host_;
+  Cores& cores_;
   std::vector<NamedConfig> configs_;
   Clock::time_point start_;
   std::unique_ptr<Progress> progress_;

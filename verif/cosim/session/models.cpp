@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "cosim/session/cores.hpp"
 #include "cosim/session/host.hpp"
 #include "cosim/session/planned.hpp"
+#include "cosim/session/random_registers.hpp"
 #include "file/real_path.hpp"
 #include "file/shown.hpp"
 #include "kage/error.hpp"
@@ -83,9 +85,29 @@ Model model_of(const NamedConfig& config, const RtlRun& rtl, Host& host, ModelFo
   return model;
 }
 
-RtlIdentity identity_of(const NamedConfig& config, Host& host) {
-  tell_other_rtl(host);
-  return rtl_identity(config.config);
+namespace {
+
+class RtlCores final : public Cores {
+ public:
+  Model model(const NamedConfig& config, const RtlRun& rtl, Host& host) override { return model_of(config, rtl, host); }
+  RtlIdentity identity(const NamedConfig& config, Host& host) override {
+    tell_other_rtl(host);
+    return rtl_identity(config.config);
+  }
+  std::unique_ptr<Core> core(const Model& model, const Config& config, const RtlOptions& options) override {
+    return make_rtl(model.library, config, options);
+  }
+  std::optional<Difference> registers(const Model& model, const Config& config, const RtlOptions& options,
+                                      const std::function<void()>& wait) override {
+    return register_difference(model.library, config, options, wait);
+  }
+};
+
+}  // namespace
+
+Cores& rtl_cores() {
+  static RtlCores cores;
+  return cores;
 }
 
 std::string rtl_directory() { return std::filesystem::absolute(data_directory() / "rtl").lexically_normal().string(); }

@@ -9,7 +9,6 @@
 #include "cosim/diverge/divergence.hpp"
 #include "cosim/model/model.hpp"
 #include "cosim/model/rtl.hpp"
-#include "cosim/model/rtl_identity.hpp"
 #include "kage/config.hpp"
 #include "kage/cosim.hpp"
 
@@ -25,9 +24,6 @@ enum class ModelFor { kPixels, kMonitors, kWaveforms, kLines };
 /// if the current folder is of a tree with another rtl/ than the model's. `ports`: ModelOptions::ports.
 Model model_of(const NamedConfig& config, const RtlRun& rtl, Host& host, ModelFor what = ModelFor::kPixels,
                const std::string& ports = {});
-
-/// The identity of that model's RTL, for kept verdicts. Says the same as model_of().
-RtlIdentity identity_of(const NamedConfig& config, Host& host);
 
 /// Where the RTL is that models are built of.
 std::string rtl_directory();

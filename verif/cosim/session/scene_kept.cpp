@@ -34,7 +34,7 @@ bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words, int number
   RtlOptions alone = rtl_;
   if (!prelude) alone.prelude = {};
   alone.text = unheard;
-  const auto rtl = cosim::make_rtl(model_.library, config, alone);
+  const auto rtl = cores_.core(model_, config, alone);
   RunOptions options;
   options.steps = {number, 1};
   options.refusals = true;

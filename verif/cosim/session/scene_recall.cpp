@@ -23,7 +23,7 @@ void SceneRun::open_verdicts() {
   if (!o_.rtl.netlist.empty()) return no_verdicts("with --netlist every frame is run");
   if (rtl_.mutant != 0) return no_verdicts("with --mutant every frame is run");
   if (rtl_.prelude) return no_verdicts("random:mixed runs every frame, for other frames go ahead of its own");
-  const RtlIdentity rtl = identity_of(source_->named_config(), host_);
+  const RtlIdentity rtl = cores_.identity(source_->named_config(), host_);
   if (rtl.behaviour.empty()) return no_verdicts(rtl.why_not);
   RecallOptions recall;
   try {
@@ -97,7 +97,7 @@ const Model& SceneRun::model() {
   if (model_error_) std::rethrow_exception(model_error_);
   if (!model_.library.empty()) return model_;
   try {
-    Model model = model_of(source_->named_config(), o_.rtl, host_);
+    Model model = cores_.model(source_->named_config(), o_.rtl, host_);
     if (model.library.stem() != model_key_)
       throw Error("the RTL was changed while verdicts were looked up: run it again");
     model_ = std::move(model);

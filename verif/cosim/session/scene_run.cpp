@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "cosim/model/rtl.hpp"
-#include "cosim/session/random_registers.hpp"
 #include "file/shown.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
@@ -42,8 +41,9 @@ int default_jobs() {
   return std::clamp(processors, 1, static_cast<int>(std::clamp<std::uint64_t>(memory / 2 / kJobBytes, 1, 4096)));
 }
 
-SceneRun::SceneRun(const CosimOptions& o, Host& host, std::int64_t frames_before)
+SceneRun::SceneRun(const CosimOptions& o, Host& host, Cores& cores, std::int64_t frames_before)
     : host_(host),
+      cores_(cores),
       o_(o),
       rtl_(rtl_options(o.rtl, o.seed)),
       source_(std::make_unique<Source>(o, host)),
@@ -66,7 +66,7 @@ void SceneRun::prepare(int ranges) {
   if (frames() == 0) return;
   if (!o_.out.empty()) folder_ = std::make_unique<OutFolder>(o_.out);
   open_verdicts();
-  if (!recall_) model_ = model_of(source_->named_config(), o_.rtl, host_);
+  if (!recall_) model_ = cores_.model(source_->named_config(), o_.rtl, host_);
   frame_progress_.emplace(*progress_, source_->name(), frames());
   if (!o_.no_report && !o_.out.empty()) report_.emplace(*source_, lines_of(o_), host_);
   const int end = o_.frame >= 0 ? o_.frame + 1 : total_;
@@ -175,7 +175,7 @@ void SceneRun::check_registers(Report& report) {
   RtlOptions options = rtl_;
   if (o_.silent) options.text = unheard;  // a silent run is made again if it comes out different
   try {
-    report.first_difference = register_difference(model_.library, source_->config(), options, wait);
+    report.first_difference = cores_.registers(model_, source_->config(), options, wait);
   } catch (const Enough&) {
     return;  // the run ends with what its frames have shown
   }
@@ -208,8 +208,8 @@ Report SceneRun::run_rtl(Part& part, const FrameRange& range, const Feed& feed, 
   own_state.text = [&](int frame, std::string_view text) {
     if (frame >= range.steps.first) take_rtl_text(part, text);
   };
-  const auto rtl = cosim::make_rtl(model_.library, config, own_state);
-  std::unique_ptr<RtlCore> other;
+  const auto rtl = cores_.core(model_, config, own_state);
+  std::unique_ptr<Core> other;
   std::string other_text;
   if (range.steps.first == steps_.first) {
     RtlOptions other_state = rtl_;
@@ -217,7 +217,7 @@ Report SceneRun::run_rtl(Part& part, const FrameRange& range, const Feed& feed, 
     other_state.text = [&](int, std::string_view text) {
       if (other_text.size() < kMostRtlText) other_text += text;
     };
-    other = cosim::make_rtl(model_.library, config, other_state);
+    other = cores_.core(model_, config, other_state);
     options.other_state = other.get();
   }
   Report report = cosim::run(range.end, feed, golden, *rtl, options);

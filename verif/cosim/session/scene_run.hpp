@@ -18,6 +18,7 @@
 #include "cosim/model/model.hpp"
 #include "cosim/ranges.hpp"
 #include "cosim/recall.hpp"
+#include "cosim/session/cores.hpp"
 #include "cosim/session/frame_progress.hpp"
 #include "cosim/session/models.hpp"
 #include "cosim/session/run_page.hpp"
@@ -38,8 +39,8 @@ int default_jobs();
 /// A scene of the run. The steps come in this order; ranges run beside each other, in threads.
 class SceneRun {
  public:
-  /// Opens the scene; `o` names it as its input. `host` must outlive it.
-  SceneRun(const CosimOptions& o, Host& host, std::int64_t frames_before);
+  /// Opens the scene; `o` names it as its input. `host` and `cores` must outlive it.
+  SceneRun(const CosimOptions& o, Host& host, Cores& cores, std::int64_t frames_before);
 
   [[nodiscard]] const Source& source() const { return *source_; }
   [[nodiscard]] const CosimOptions& options() const { return o_; }
@@ -127,6 +128,7 @@ class SceneRun {
   [[nodiscard]] report::SceneRecord record_of(const Report& r) const;
 
   Host& host_;
+  Cores& cores_;
   CosimOptions o_;  // with its input and its folder
   RtlOptions rtl_;
   std::unique_ptr<Source> source_;

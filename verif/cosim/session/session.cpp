@@ -25,14 +25,14 @@ CosimOptions with_inputs(CosimOptions o) {
 
 }  // namespace
 
-Session::Session(const CosimOptions& options, Host& host) : options_(with_inputs(options)), host_(host) {
+Session::Session(const CosimOptions& options, Host& host, Cores& cores) : options_(with_inputs(options)), host_(host) {
   std::int64_t frames = 0;
   int own = 0;
   for (const std::string& input : options_.inputs) {
     host_.check();
     CosimOptions with_input = options_;
     with_input.input = input;
-    auto scene = std::make_unique<SceneRun>(with_input, host_, frames);
+    auto scene = std::make_unique<SceneRun>(with_input, host_, cores, frames);
     const std::string& name = scene->source().name();
     for (const auto& other : scenes_)
       if (other->source().name() == name)

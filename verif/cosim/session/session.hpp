@@ -17,8 +17,8 @@ namespace kage::cosim {
 
 class Session {
  public:
-  /// Opens all scenes, so that what cannot be read is found before the work. `host` must outlive it.
-  Session(const CosimOptions& options, Host& host);
+  /// Opens all scenes, so that what cannot be read is found before the work. `host` and `cores` must outlive it.
+  Session(const CosimOptions& options, Host& host, Cores& cores = rtl_cores());
 
   /// Compares all frames of all scenes.
   void compare();

@@ -51,6 +51,10 @@ if command -v pkg-config >/dev/null; then
   # shellcheck disable=SC2046
   "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} "$source/verif/test/package/order.cpp" -o "$temp/order_pc" $(pkg-config --cflags --libs kage-order)
   "$temp/order_pc"
+  if [ -f "$pc/kage-cosim.pc" ]; then
+    # shellcheck disable=SC2046
+    "$cxx" -std=c++20 ${KAGE_PACKAGE_FLAGS:-} "$source/verif/test/package/cosim.cpp" -o "$temp/cosim_pc" $(pkg-config --cflags --libs kage-cosim)
+  fi
   # shellcheck disable=SC2046
   [ -z "$(LD_TRACE_LOADED_OBJECTS=1 "$temp/golden_pc" | grep -E 'OpenImageIO|assimp')" ] || { echo "who links kage binds OpenImageIO" >&2; exit 1; }
 fi
@@ -62,6 +66,7 @@ shows() { # DOC FILE: each line of the code block behind the comment that names 
   done <"$temp/shown"
 }
 shows README.md verif/test/package/draw.cpp
+shows docs/api.md verif/test/package/cosim.cpp
 shows docs/building.md verif/test/package/golden.cpp
 shows docs/order.md verif/test/package/order.cpp
 # The installed program, moved to another prefix, finds RTL, scenes and model builder beside itself.
@@ -82,6 +87,15 @@ if [ -x "$temp/moved/bin/kage" ]; then
   moved/bin/kage diff drawn.png drawn/courtyard_0000.png
   moved/bin/kage stream courtyard --size 64x48 --frames 1 --config default --out default.kage
   LD_LIBRARY_PATH=$(dirname "$(find moved -name libkage_golden.so)") build/c_consumer default.kage
+  # A co-simulation in another's program, and what it says of sound and of broken RTL.
+  export KAGE_DATA_DIR=$temp/moved/share/kage
+  said=$(build/cosim_consumer)
+  [ "$said" = "same: 3 frames, 57600 pixels" ] || { echo "cosim_consumer says '$said'" >&2; exit 1; }
+  said=$(build/cosim_consumer wrong_compare) && { echo "cosim_consumer finds no fault" >&2; exit 1; }
+  grep -q '^first divergence: .*(rtl/' <<<"$said" || { echo "cosim_consumer blames nothing: '$said'" >&2; exit 1; }
+  build/cosim_consumer no_such_fault 2>said && { echo "cosim_consumer takes any fault" >&2; exit 1; }
+  grep -q no_such_fault said || { cat said >&2; exit 1; }
+  unset KAGE_DATA_DIR
   LD_DEBUG=files LD_DEBUG_OUTPUT=$temp/bound moved/bin/kage diff courtyard.ppm pictures/courtyard_0000.png
   grep -q "calling init: $temp/moved/.*/libkage_pictures.so" "$temp"/bound.* || { echo "an installed kage opens another's module" >&2; exit 1; }
 fi

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a progress line says.
-#include "cli/progress.hpp"
-
+#include "cosim/session/frame_progress.hpp"
 #include "test/support/catch.hpp"
 
-using kage::cli::progress_text;
+using kage::cosim::progress_text;
 
 TEST_CASE("frames, rate and time left") {
   REQUIRE(progress_text("a", 0, 8, 0) == "a: frame 1/8");
