@@ -10,12 +10,12 @@
 
 #include "command.hpp"
 #include "cost/cells.hpp"
+#include "explore/synthesis.hpp"
 #include "kage/config.hpp"
 #include "options.hpp"
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
-#include "trade/synthesis.hpp"
 
 namespace kage::cli {
 namespace {
@@ -26,7 +26,7 @@ struct AreaCommand : Options {
   bool anew = false;
 };
 
-Json counted_json(const std::optional<trade::Synthesis>& done) {
+Json counted_json(const std::optional<explore::Synthesis>& done) {
   if (!done) return nullptr;
   return {{"luts", done->cells.luts}, {"flip_flops", done->cells.flip_flops},
           {"rams", done->cells.rams}, {"dsps", done->cells.dsps},
@@ -53,10 +53,10 @@ int run(const AreaCommand& o) {
   for (const NamedConfig& named : list) {
     check_interrupt();
     const Cells cells = estimated_cells(named.config);
-    std::optional<trade::Synthesis> done;
+    std::optional<explore::Synthesis> done;
     if (!o.estimate) {
       progress.show(named.name + ": yosys counts its cells");
-      done = trade::synthesize(named.config, check_interrupt, o.anew);
+      done = explore::synthesize(named.config, check_interrupt, o.anew);
       progress.clear();
     }
     if (!json_only(o.json)) {

@@ -13,9 +13,10 @@
 
 #include "board/connection.hpp"
 #include "board/pack_run.hpp"
+#include "board/record.hpp"
 #include "board/sim_board.hpp"
-#include "board_report.hpp"
 #include "command.hpp"
+#include "command_lines.hpp"
 #include "cosim/report/report_lock.hpp"
 #include "cosim_print.hpp"
 #include "kage/error.hpp"
@@ -24,6 +25,7 @@
 #include "progress.hpp"
 #include "results.hpp"
 #include "signals.hpp"
+#include "terminal.hpp"
 #include "text.hpp"
 #include "vectors/check.hpp"
 
@@ -122,7 +124,8 @@ int run(const BoardCommand& o) {
   }
   const board::PackVerdict verdict = play(o, pack);
   TempFiles files;
-  const report::RunRecord record = record_of({pack, o.input, o.port, verdict, *o.command}, o.out, files);
+  const report::RunRecord record = board::record_of(
+      {pack, o.input, o.port, verdict, command_line(*o.command), "kage " KAGE_VERSION}, o.out, files, terminal());
   const report::SceneRecord& scene = record.scenes.front();
   try {
     write_json(o.json, record, files);

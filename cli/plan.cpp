@@ -18,6 +18,7 @@
 #include "cosim/session/remarks.hpp"
 #include "cosim/session/source.hpp"
 #include "device_clock.hpp"
+#include "explore/measured_plan.hpp"
 #include "inputs.hpp"
 #include "kage/error.hpp"
 #include "progress.hpp"
@@ -25,7 +26,6 @@
 #include "signals.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
-#include "trade/measured_plan.hpp"
 
 namespace kage::cli {
 namespace {
@@ -166,17 +166,17 @@ std::string speed_text(const Plan& plan) {
 }
 
 /// What the plan's pictures may be off by, as its inequalities bound it or as it was measured.
-std::string error_text(const Plan& plan, const PlanOptions& options, const trade::MeasuredPlan* measured) {
+std::string error_text(const Plan& plan, const PlanOptions& options, const explore::MeasuredPlan* measured) {
   if (measured == nullptr)
     return fmt::format("# depth within {:.3g} of its range, colour at most {}/255 from exact arithmetic{}\n",
                        plan.z_error, plan.limits.color,
                        plan.limits.color > options.limits.color ? " (no core is bound to keep less here)" : "");
-  const trade::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);
+  const explore::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);
   std::string text = fmt::format("# measured in these frames: {}; allowed: {}\n", measured->text(l.taken_gives),
                                  measured->limits_text());
   if (!(l.least == l.taken))
     text += fmt::format("# measured before the next steps were taken, with {}: {}\n",
-                        trade::MeasuredPlan::widths_text(l.least), measured->text(l.least_gives));
+                        explore::MeasuredPlan::widths_text(l.least), measured->text(l.least_gives));
   return text;
 }
 
@@ -200,7 +200,7 @@ std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const 
 }
 
 std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& options,
-                    const std::vector<std::string>& notes, const trade::MeasuredPlan* measured) {
+                    const std::vector<std::string>& notes, const explore::MeasuredPlan* measured) {
   std::string text = fmt::format("# kage plan {}: {} of up to {}x{}, --prefer {}\n",
                                  shown(fmt::format("{}", fmt::join(o.inputs, " "))), counted(plan.frames, "frame"),
                                  plan.size[0], plan.size[1], name_of(o.plan.prefer));
@@ -262,14 +262,14 @@ Json candidate_json(const Plan& plan, const PlanCandidate& c) {
   return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.config, c.cost)}};
 }
 
-Json accuracy_json(const trade::Accuracy& a) {
+Json accuracy_json(const explore::Accuracy& a) {
   return {{"wrong_ppm", a.wrong_ppm()}, {"z_error", a.z_max}, {"color_steps", a.color_max}};
 }
 
 /// What pictures with the plan's widths were off by, and with those before they were rounded up to steps.
-Json measured_json(const Plan& plan, const trade::MeasuredPlan* measured) {
+Json measured_json(const Plan& plan, const explore::MeasuredPlan* measured) {
   if (measured == nullptr) return nullptr;
-  const trade::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);
+  const explore::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);
   Json j = accuracy_json(l.taken_gives);
   j["before_steps"] = accuracy_json(l.least_gives);
   j["before_steps"]["config"] = cli::to_json(l.least);
@@ -277,7 +277,7 @@ Json measured_json(const Plan& plan, const trade::MeasuredPlan* measured) {
 }
 
 Json json_of(const PlanCommand& o, const Plan& plan, const std::vector<std::string>& notes,
-             const trade::MeasuredPlan* measured) {
+             const explore::MeasuredPlan* measured) {
   Json j;
   j["scenes"] = o.inputs;
   j["notes"] = notes;
@@ -316,10 +316,10 @@ int run(const PlanCommand& o) {
   PlanOptions options = options_of(o, progress);
   for (const std::string& input : o.inputs) scenes.push_back(open(o, input, progress));
   check_total_lines(o, scenes);
-  std::optional<trade::MeasuredPlan> measured;
+  std::optional<explore::MeasuredPlan> measured;
   if (o.measured) {
     int drawn = 0;
-    const trade::MeasuredLimits limits{o.max_wrong, measured_z(o, options.limits.z), options.limits.color};
+    const explore::MeasuredLimits limits{o.max_wrong, measured_z(o, options.limits.z), options.limits.color};
     measured.emplace(scenes, limits, [&progress, drawn]() mutable {
       check_interrupt();
       progress.show(fmt::format("plan: {} drawn", counted(++drawn, "frame")));
@@ -330,7 +330,7 @@ int run(const PlanCommand& o) {
   progress.clear();
   TempFiles files;
   const std::vector<std::string> notes = notes_of(o, plan, scenes);
-  const trade::MeasuredPlan* pictures = measured ? &*measured : nullptr;
+  const explore::MeasuredPlan* pictures = measured ? &*measured : nullptr;
   finish(o.json, {"kage.plan/1", json_of(o, plan, notes, pictures)}, files, text_of(o, plan, options, notes, pictures));
   if (json_only(o.json))
     for (const std::string& note : notes) fmt::print(stderr, "{}\n", shown(note));

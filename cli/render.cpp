@@ -10,7 +10,7 @@
 #include "command.hpp"
 #include "cosim/session/frame_progress.hpp"
 #include "cosim/session/source.hpp"
-#include "error_maps.hpp"
+#include "explore/error_maps.hpp"
 #include "inputs.hpp"
 #include "kage/error.hpp"
 #include "kage/pipeline.hpp"
@@ -39,8 +39,8 @@ int run(const RenderCommand& o) {
     throw Error(
         fmt::format("{}: --error-map: what is wrong is told from the scene, which a stream does not hold", o.input));
   cosim::Source source(o, terminal());
-  std::optional<ErrorMaps> errors;
-  if (o.error_map) errors.emplace(o, source);
+  std::optional<explore::ErrorMaps> errors;
+  if (o.error_map) errors.emplace(o, source, terminal());
   Renderer renderer(source);
   TokenCounts counts;
   TempFiles files;

@@ -17,6 +17,11 @@
 #include "cosim/session/run_page.hpp"
 #include "cosim/session/source.hpp"
 #include "cosim_print.hpp"
+#include "explore/sweep_page.hpp"
+#include "explore/sweep_plan.hpp"
+#include "explore/sweep_rows.hpp"
+#include "explore/sweep_store.hpp"
+#include "explore/swept_scenes.hpp"
 #include "inputs.hpp"
 #include "kage/error.hpp"
 #include "progress.hpp"
@@ -24,18 +29,29 @@
 #include "signals.hpp"
 #include "standard_files.hpp"
 #include "sweep_print.hpp"
-#include "sweep_rows.hpp"
-#include "sweep_scenes.hpp"
 #include "terminal.hpp"
 #include "text.hpp"
-#include "trade/sweep_page.hpp"
-#include "trade/sweep_plan.hpp"
-#include "trade/sweep_store.hpp"
 
 namespace kage::cli {
 namespace {
 
-using trade::SweepPoint;
+using explore::Entry;
+using explore::SweepPoint;
+using explore::SweptScene;
+
+// What --place is without a device, and the device that it means: of the family whose cells are counted.
+constexpr const char* kPlaceFlag = "true";
+constexpr const char* kPlaceDevice = "ecp5-85f";
+
+struct SweepCommand : explore::SweepOptions {
+  cosim::Shard shard;
+  bool resume = false;
+  std::vector<std::string> take;
+  std::string csv;
+  std::string out;
+  std::string json;
+  std::string again;  // the command line that makes the same page of the store
+};
 
 /// Whether `--csv -` claims standard output for itself.
 bool csv_only(const SweepCommand& o) { return is_standard_output(o.csv); }
@@ -44,7 +60,7 @@ bool csv_only(const SweepCommand& o) { return is_standard_output(o.csv); }
 std::string render_line(const SweepCommand& o, const SweptScene& s, const SweepPoint& p) {
   std::string line =
       fmt::format("kage render {} --config {} --degrade --size {}x{} --frames {} --order {}", kage::quoted(s.input),
-                  trade::kPageConfig, p.width, p.height, s.scene->frames(), cosim::name_of(p.look.translucent));
+                  explore::kPageConfig, p.width, p.height, s.scene->frames(), cosim::name_of(p.look.translucent));
   line += fmt::format(" --sub-bits {} --samples {} --classes {} --seed {}", p.look.sub_bits, p.look.samples,
                       p.look.classes, p.look.seed);
   if (o.alpha != 1) line += fmt::format(" --alpha {}", o.alpha);
@@ -58,7 +74,7 @@ std::string render_line(const SweepCommand& o, const SweptScene& s, const SweepP
 /// work, so that what cannot be is said before it.
 struct OutPlace {
   explicit OutPlace(const std::string& path)
-      : folder(path), pictures(std::filesystem::path(path) / trade::kPicturesFolder), lock(path) {
+      : folder(path), pictures(std::filesystem::path(path) / explore::kPicturesFolder), lock(path) {
     plot::load();
   }
   OutFolder folder;
@@ -70,7 +86,7 @@ struct OutPlace {
 void write_page(const SweepCommand& o, const std::vector<SweptScene>& scenes, const std::vector<Entry>& entries,
                 const std::vector<Json>& rows, TempFiles& files) {
   Progress progress;
-  trade::SweepPage page;
+  explore::SweepPage page;
   page.command = o.again;
   page.store = o.store;
   page.doing = [&progress](const std::string& what) {
@@ -82,7 +98,7 @@ void write_page(const SweepCommand& o, const std::vector<SweptScene>& scenes, co
     const SweepPoint& p = s.points[entries[i].point];
     page.rows.push_back({rows[i], &p, s.scene.get(), render_line(o, s, p)});
   }
-  trade::write_sweep_page(files, o.out, page);
+  explore::write_sweep_page(files, o.out, page);
   progress.clear();
 }
 
@@ -104,11 +120,12 @@ int list(const std::vector<SweptScene>& scenes, const std::vector<Entry>& entrie
 }
 
 /// Says how many cores are going to be placed, as that takes minutes a core.
-void announce_places(trade::Placer& placer, const std::vector<SweptScene>& scenes, const std::vector<Entry>& entries) {
+void announce_places(explore::Placer& placer, const std::vector<SweptScene>& scenes,
+                     const std::vector<Entry>& entries) {
   std::vector<Config> cores;
   for (const Entry& e : entries) {
     const Config& config = scenes[e.scene].points[e.point].config;
-    if (trade::is_built(config)) cores.push_back(config);
+    if (explore::is_built(config)) cores.push_back(config);
   }
   const std::size_t missing = placer.expect(cores);
   if (missing > 0)
@@ -119,10 +136,10 @@ void announce_places(trade::Placer& placer, const std::vector<SweptScene>& scene
 /// Says of scenes without a soft light that an axis of samples only costs.
 void announce_samples(const SweepCommand& o, const std::vector<SweptScene>& scenes) {
   const bool asked = std::any_of(o.axes.begin(), o.axes.end(),
-                                 [](const std::string& axis) { return trade::parse_axis(axis).name == "SAMPLES"; });
+                                 [](const std::string& axis) { return explore::parse_axis(axis).name == "SAMPLES"; });
   if (!asked) return;
   for (const SweptScene& s : scenes)
-    if (!is_soft(s))
+    if (!explore::is_soft(s))
       say(
           fmt::format("kage: {}: no light is soft, so SAMPLES changes no picture: what it adds to COUNT_BITS only "
                       "costs\n",
@@ -147,17 +164,19 @@ std::string closing(const SweepCommand& o, std::size_t made, std::size_t rows, c
 
 /// Throws Error where a store cannot be used: before the work, and before one is made.
 void check_stores(const SweepCommand& o) {
-  for (const std::string& other : o.take) trade::SweepStore::check(other);
+  for (const std::string& other : o.take) explore::SweepStore::check(other);
   if (o.list) return;
   check_output(o.store);
-  if (o.resume || !std::filesystem::exists(o.store) || trade::SweepStore::is_empty(o.store)) return;
-  trade::SweepStore::check(o.store);
+  if (o.resume || !std::filesystem::exists(o.store) || explore::SweepStore::is_empty(o.store)) return;
+  explore::SweepStore::check(o.store);
   throw Error(fmt::format("{}: there is a store already: --resume goes on with it, --store names another", o.store));
 }
 
-int run(const SweepCommand& o) {
+int run(SweepCommand& o) {
+  if (o.place == kPlaceFlag) o.place = kPlaceDevice;
+  o.build = build_name();
   if (o.grid && o.axes.empty()) throw Error("--grid: of the axes that --axes names, and there is none");
-  const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / trade::kPageName).string();
+  const std::string page = o.out.empty() ? "" : (std::filesystem::path(o.out) / explore::kPageName).string();
   if (csv_only(o) && json_only(o.json)) throw Error("--csv - and --json -: both are standard output");
   refuse_twice({file_named(o.json), file_named(o.csv), o.store, page});
   reads_files(o.take);
@@ -167,11 +186,14 @@ int run(const SweepCommand& o) {
   check_stores(o);
   Progress progress;
   std::vector<SweptScene> scenes;
-  Told* telling = nullptr;
-  const Tools tools = tools_of(o);
+  explore::Told* telling = nullptr;
+  const explore::Tools tools = explore::tools_of(o, terminal());
   refuse_repeated(o.inputs);
   const auto doing = [&telling](const std::string& what) { telling->doing(what); };
-  for (const std::string& input : o.inputs) scenes.push_back(open_swept(o, tools, input, progress, doing));
+  for (const std::string& input : o.inputs) {
+    refuse_random(input);
+    scenes.push_back(explore::open_swept(o, tools, input, terminal(), progress, doing));
+  }
   progress.clear();
   std::vector<Entry> entries = entries_of(o, scenes);
   announce_left_out(scenes);
@@ -183,11 +205,11 @@ int run(const SweepCommand& o) {
   }
   announce_samples(o, scenes);
   if (tools.placer) announce_places(*tools.placer, scenes, entries);
-  trade::SweepStore store(o.store);
+  explore::SweepStore store(o.store);
   for (const std::string& other : o.take) store.absorb(other);
-  Told told;
+  explore::Told told(terminal());
   telling = &told;
-  Sweep sweep(o, tools, scenes, store, told);
+  explore::Sweep sweep(o, tools, scenes, store, told, terminal());
   try {
     sweep.announce_old(entries);
     sweep.run(entries);
@@ -198,12 +220,12 @@ int run(const SweepCommand& o) {
   }
   std::vector<Json> rows;
   for (const Entry& e : entries) rows.push_back(e.row);
-  const std::vector<bool> best = trade::pareto(rows);
+  const std::vector<bool> best = explore::pareto(rows);
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i]["pareto"] = static_cast<bool>(best[i]);
   TempFiles files;
   if (!file_named(o.csv).empty()) write_text(files, o.csv, sweep_csv(rows));
   if (!o.out.empty()) write_page(o, scenes, entries, rows, files);
-  finish(o.json, {kRows, Json(rows)}, files,
+  finish(o.json, {explore::kRows, Json(rows)}, files,
          csv_only(o) ? sweep_csv(rows) : sweep_table(rows) + closing(o, sweep.measured(), rows.size(), page));
   return kSame;
 }
@@ -258,7 +280,7 @@ void add_sweep(CLI::App& app, Action& action) {
   c->add_option("--out", o->out,
                 fmt::format("folder for {}, the page of all rows with their pictures, on which the cheapest "
                             "configuration within limits is found, and for plots of error against cost as SVG and PNG",
-                            trade::kPageName))
+                            explore::kPageName))
       ->type_name("DIR");
   options_of_pictures(*c, *o, "two, or the scene's one");
   option_json(*c, o->json);

@@ -10,8 +10,8 @@
 
 #include "image/flip_metric.hpp"
 #include "number/mixed.hpp"
-#include "opinion/light_truth.hpp"
-#include "opinion/penumbra_truth.hpp"
+#include "oracle/light_truth.hpp"
+#include "oracle/penumbra_truth.hpp"
 #include "stimulus/random.hpp"
 #include "stimulus/shapes.hpp"
 

@@ -13,7 +13,7 @@
 #include "geometry/shade.hpp"
 #include "geometry/view.hpp"
 #include "kage/light.hpp"
-#include "opinion/light_truth.hpp"
+#include "oracle/light_truth.hpp"
 #include "shadow/shadow_caster.hpp"
 
 namespace {

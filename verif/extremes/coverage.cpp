@@ -10,7 +10,7 @@
 #include "kage/error.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
-#include "opinion/judge.hpp"
+#include "oracle/judge.hpp"
 
 namespace kage::verif {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kage/frontend.hpp"
-#include "opinion/oracle.hpp"
+#include "oracle/oracle.hpp"
 
 namespace kage::verif {
 namespace {

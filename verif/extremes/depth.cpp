@@ -10,8 +10,8 @@
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
-#include "opinion/judge.hpp"
-#include "opinion/simple_core.hpp"
+#include "oracle/judge.hpp"
+#include "oracle/simple_core.hpp"
 
 namespace kage::verif {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "kage/core.hpp"
 #include "kage/light.hpp"
-#include "opinion/light_truth.hpp"
+#include "oracle/light_truth.hpp"
 
 namespace kage::verif {
 namespace {

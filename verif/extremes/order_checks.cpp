@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "geometry/translucent.hpp"
-#include "opinion/cut_oracle.hpp"
+#include "oracle/cut_oracle.hpp"
 
 namespace kage::verif {
 bool within_fragment_bound(const OrderBuildStats& s) {

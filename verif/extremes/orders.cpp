@@ -9,9 +9,9 @@
 
 #include "extremes/order_checks.hpp"
 #include "geometry/translucent.hpp"
-#include "opinion/face_pixels.hpp"
-#include "opinion/layer_truth.hpp"
-#include "opinion/order_oracle.hpp"
+#include "oracle/face_pixels.hpp"
+#include "oracle/layer_truth.hpp"
+#include "oracle/order_oracle.hpp"
 #include "stimulus/order_meshes.hpp"
 
 namespace kage::verif {

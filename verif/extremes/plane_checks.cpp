@@ -11,8 +11,8 @@
 
 #include "geometry/sampled_lights.hpp"
 #include "geometry/seen.hpp"
-#include "opinion/exact_screen.hpp"
-#include "opinion/oracle.hpp"
+#include "oracle/exact_screen.hpp"
+#include "oracle/oracle.hpp"
 #include "shadow/kept.hpp"
 #include "shadow/volumes.hpp"
 

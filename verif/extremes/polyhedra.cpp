@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "extremes/tree_frames.hpp"
-#include "opinion/judge.hpp"
+#include "oracle/judge.hpp"
 
 namespace kage::verif {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "extremes/shadow_checks.hpp"
 
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 
 namespace kage::verif {
 namespace {

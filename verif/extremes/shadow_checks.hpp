@@ -6,7 +6,7 @@
 #include <span>
 
 #include "extremes/family.hpp"
-#include "opinion/judge.hpp"
+#include "oracle/judge.hpp"
 #include "stimulus/shapes.hpp"
 
 namespace kage::verif {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Folders include what docs/architecture.md ("Layers") lets them: a layer those below it and their public headers,
-second opinions nothing of what they judge, and nothing that is installed a test, an opinion, a mutant or a benchmark.
+oracles nothing of what they judge, and nothing that is installed a test, an oracle, a mutant or a benchmark.
 
 usage: layers.py SOURCE_DIR
 """
@@ -63,18 +63,18 @@ ABOVE = {
     "verif/cosim/report": ["report", "cosim", *MODEL],
     "verif/cosim/session": ["session", "report", "cosim", "stimulus", *MODEL],
     "verif/cosim/regress": ["regress", "session", "report", "cosim", "stimulus", *MODEL],
-    "verif/opinion": ["opinion", "kage", "number"],
+    "verif/oracle": ["oracle", "kage", "number"],
     "verif/vectors": ["vectors", "report", "cosim", "stimulus", *MODEL],
-    "verif/board": ["board", "vectors", "report", "cosim", *MODEL],
-    "verif/trade": ["trade", "opinion", "report", "cosim", "stimulus", *MODEL],
+    "verif/board": ["board", "vectors", "session", "report", "cosim", *MODEL],
+    "verif/explore": ["explore", "oracle", "session", "report", "cosim", "stimulus", *MODEL],
     "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
-    "verif/extremes": ["extremes", "cosim", "stimulus", "opinion", *MODEL],
-    "verif/fuzz": ["fuzz", "trade", "vectors", "report", "cosim", "stimulus", *MODEL],
-    "verif/bench": ["bench", "report", "cosim", "stimulus", "opinion", *MODEL],
+    "verif/extremes": ["extremes", "cosim", "stimulus", "oracle", *MODEL],
+    "verif/fuzz": ["fuzz", "explore", "vectors", "report", "cosim", "stimulus", *MODEL],
+    "verif/bench": ["bench", "report", "cosim", "stimulus", "oracle", *MODEL],
     "verif/test": [
         "test",
         "extremes",
-        "trade",
+        "explore",
         "board",
         "vectors",
         "regress",
@@ -82,10 +82,10 @@ ABOVE = {
         "report",
         "cosim",
         "stimulus",
-        "opinion",
+        "oracle",
         *MODEL,
     ],
-    "cli": ["cli", "trade", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", *MODEL],
+    "cli": ["cli", "explore", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", *MODEL],
 }
 
 ROOTS = (
@@ -141,18 +141,18 @@ def refused(path, text, files):
 
 
 EXAMPLES = (  # each must be refused
-    ("verif/opinion/oracle.hpp", "test/support/catch.hpp"),
-    ("verif/opinion/oracle.hpp", "stimulus/random.hpp"),
-    ("verif/opinion/oracle.cpp", "geometry/plane.hpp"),
+    ("verif/oracle/oracle.hpp", "test/support/catch.hpp"),
+    ("verif/oracle/oracle.hpp", "stimulus/random.hpp"),
+    ("verif/oracle/oracle.cpp", "geometry/plane.hpp"),
     ("verif/bench/shadows.cpp", "test/support/catch.hpp"),
-    ("verif/cosim/run.cpp", "opinion/oracle.hpp"),
+    ("verif/cosim/run.cpp", "oracle/oracle.hpp"),
     ("verif/cosim/run.cpp", "cosim/session/session.hpp"),
     ("verif/cosim/run.cpp", "cosim/report/run_record.hpp"),
     ("verif/cosim/report/joined.cpp", "cosim/session/session.hpp"),
     ("verif/cosim/session/session.cpp", "cosim/regress/regress.hpp"),
     ("verif/vectors/pack.cpp", "cosim/session/source.hpp"),
     ("verif/extremes/depth.cpp", "test/support/catch.hpp"),
-    ("verif/opinion/oracle.hpp", "extremes/family.hpp"),
+    ("verif/oracle/oracle.hpp", "extremes/family.hpp"),
     ("verif/bench/shadows.cpp", "extremes/family.hpp"),
     ("verif/cosim/run.cpp", "../test/support/catch.hpp"),
     ("verif/cosim/run.cpp", "catch.hpp"),

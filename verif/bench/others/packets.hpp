@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "bench/others/looks.hpp"
-#include "opinion/embree_scene.hpp"
+#include "oracle/embree_scene.hpp"
 
 namespace kage::verif {
 

@@ -58,7 +58,7 @@ own_verdicts() {
 # data_copy FOLDER: a copy of the data that kage builds RTL models and pages from: RTL, scenes, drivers, monitors, faults, pages.
 data_copy() {
   local part
-  for part in rtl scenes verif/cosim/model/driver verif/cosim/model/faults verif/cosim/diverge/monitors verif/cosim/report/page verif/trade/page; do
+  for part in rtl scenes verif/cosim/model/driver verif/cosim/model/faults verif/cosim/diverge/monitors verif/cosim/report/page verif/explore/page; do
     mkdir -p "$(dirname "$1/$part")"
     cp -r "$source/$part" "$1/$part"
   done

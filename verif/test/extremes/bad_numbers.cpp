@@ -6,7 +6,7 @@
 
 #include "extremes/numbers.hpp"
 #include "kage/error.hpp"
-#include "opinion/judge.hpp"
+#include "oracle/judge.hpp"
 #include "test/support/catch.hpp"
 
 namespace kage::verif {

@@ -4,7 +4,7 @@
 
 #include "extremes/shadows.hpp"
 #include "kage/error.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "extremes/screen.hpp"
-#include "opinion/judge.hpp"
+#include "oracle/judge.hpp"
 #include "stimulus/random.hpp"
 #include "test/extremes/hold.hpp"
 

@@ -3,7 +3,7 @@
 // long lens: depth begins at what is seen.
 #include <cmath>
 
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "kage/light.hpp"
-#include "opinion/light_truth.hpp"
+#include "oracle/light_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 

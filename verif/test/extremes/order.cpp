@@ -10,7 +10,7 @@
 #include "extremes/order_checks.hpp"
 #include "extremes/orders.hpp"
 #include "geometry/order_mesh.hpp"
-#include "opinion/order_oracle.hpp"
+#include "oracle/order_oracle.hpp"
 #include "stimulus/order_meshes.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/extremes/hold.hpp"

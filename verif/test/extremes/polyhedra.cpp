@@ -2,8 +2,8 @@
 // Families 31 - 34: polyhedra by segments and the compare tree, held bit by bit against the same polyhedra by spans.
 #include <algorithm>
 
-#include "opinion/judge.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/judge.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/tree_frames.hpp"

@@ -2,7 +2,7 @@
 // Families 21, 22, 24 - 28: shadows, held against the oracle.
 #include <cmath>
 
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"

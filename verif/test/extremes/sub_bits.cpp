@@ -7,8 +7,8 @@
 
 #include "extremes/screen.hpp"
 #include "kage/error.hpp"
-#include "opinion/layer_truth.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/layer_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"

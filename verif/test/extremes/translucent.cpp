@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "core/span_kernels.hpp"
-#include "opinion/face_pixels.hpp"
-#include "opinion/layer_truth.hpp"
-#include "opinion/simple_core.hpp"
+#include "oracle/face_pixels.hpp"
+#include "oracle/layer_truth.hpp"
+#include "oracle/simple_core.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Translucent faces from frame to frame, in smooth colour, in one plane, and at every scale.
 #include "kage/error.hpp"
-#include "opinion/face_pixels.hpp"
+#include "oracle/face_pixels.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "kage/light.hpp"
-#include "opinion/judge.hpp"
-#include "opinion/layer_truth.hpp"
-#include "opinion/light_truth.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/judge.hpp"
+#include "oracle/layer_truth.hpp"
+#include "oracle/light_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "test/scene/scene_configs.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"

@@ -3,8 +3,8 @@
 // by segments against spans.
 #include <string>
 
-#include "opinion/judge.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/judge.hpp"
+#include "oracle/ray_truth.hpp"
 #include "test/scene/scene_configs.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/tree_frames.hpp"

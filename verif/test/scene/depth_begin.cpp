@@ -5,7 +5,7 @@
 // cuts them.
 #include <algorithm>
 
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "test/scene/shadow_checks.hpp"
 #include "test/support/catch.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "opinion/light_truth.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/light_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "test/support/catch.hpp"
 #include "test/unit/scene/files.hpp"
 

@@ -16,11 +16,11 @@
 #include "contract/config_text.hpp"
 #include "cost/cells.hpp"
 #include "cost/line_clocks.hpp"
+#include "explore/measured_plan.hpp"
 #include "plan/demand.hpp"
 #include "plan/widths.hpp"
 #include "test/scene/planned_scenes.hpp"
 #include "test/support/catch.hpp"
-#include "trade/measured_plan.hpp"
 
 namespace kage::verif {
 namespace {
@@ -57,7 +57,7 @@ TEST_CASE("a bound holds against the oracle, and one bit less breaks its inequal
       CHECK(plan.z_error <= limit);
 
       // By the oracle: no depth off by more, no colour off by more.
-      trade::MeasuredPlan measured(scenes, {std::nullopt, limit, plan.limits.color}, [] {});
+      explore::MeasuredPlan measured(scenes, {std::nullopt, limit, plan.limits.color}, [] {});
       const auto accuracy = measured.measure(plan.config, true);
       REQUIRE(accuracy);
       CHECK(accuracy->z_max <= plan.z_error);

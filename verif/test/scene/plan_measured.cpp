@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "contract/params.hpp"
+#include "explore/measured_plan.hpp"
 #include "kage/error.hpp"
 #include "kage/plan.hpp"
 #include "test/scene/planned_scenes.hpp"
 #include "test/support/catch.hpp"
-#include "trade/measured_plan.hpp"
 
 namespace kage::verif {
 
@@ -20,8 +20,8 @@ TEST_CASE("measured: what is kept is within the limits, and every width one less
   for (const std::string& input : inputs()) {
     CAPTURE(input);
     const std::array scenes{small(input, 64, 48, 1)};
-    const trade::MeasuredLimits limits{2000.0, 1e-3, 3};
-    trade::MeasuredPlan measured(scenes, limits, [] {});
+    const explore::MeasuredLimits limits{2000.0, 1e-3, 3};
+    explore::MeasuredPlan measured(scenes, limits, [] {});
     PlanOptions options;
     options.limits.color = limits.color;
     std::vector<Config> raw;
@@ -38,9 +38,9 @@ TEST_CASE("measured: what is kept is within the limits, and every width one less
     CHECK(plan.limits.color == limits.color);
     CHECK(plan.reasons.size() == kParams.size());
     for (const PlanReason& r : plan.reasons) check_one_less(plan, r, scenes[0]);
-    const trade::Accuracy taken = measured.measure(plan.config, true).value();
+    const explore::Accuracy taken = measured.measure(plan.config, true).value();
     CHECK(measured.within(taken));
-    const trade::MeasuredPlan::Lowered* lowered = measured.lowered(plan.config);
+    const explore::MeasuredPlan::Lowered* lowered = measured.lowered(plan.config);
     REQUIRE(lowered != nullptr);
     CHECK(lowered->taken_gives.z_max == taken.z_max);
     CHECK(lowered->taken_gives.color_max == taken.color_max);
@@ -70,8 +70,8 @@ TEST_CASE("measured: where the bound's widths are too coarse, or there are none,
   // The bound keeps colours within two steps at best, and the pictures are within one.
   const std::array scenes{small("three-lights", 64, 48, 1)};
   for (const bool given : {false, true}) {
-    const trade::MeasuredLimits limits{std::nullopt, 1.0 / ((1 << 24) - 3), 1};
-    trade::MeasuredPlan measured(scenes, limits, [] {});
+    const explore::MeasuredLimits limits{std::nullopt, 1.0 / ((1 << 24) - 3), 1};
+    explore::MeasuredPlan measured(scenes, limits, [] {});
     PlanOptions options;
     options.limits.color_given = given;
     options.lower = [&](Config& widths, std::vector<PlanReason>& reasons) { measured.lower(widths, reasons); };
@@ -83,8 +83,8 @@ TEST_CASE("measured: where the bound's widths are too coarse, or there are none,
 
 TEST_CASE("measured: the limit that no widths keep is named with the figure that was measured") {
   const std::array scenes{small("courtyard", 64, 48, 1)};
-  const auto message = [&](const trade::MeasuredLimits& limits) -> std::string {
-    trade::MeasuredPlan measured(scenes, limits, [] {});
+  const auto message = [&](const explore::MeasuredLimits& limits) -> std::string {
+    explore::MeasuredPlan measured(scenes, limits, [] {});
     PlanOptions options;
     options.limits.z = limits.z;
     options.lower = [&](Config& widths, std::vector<PlanReason>& reasons) { measured.lower(widths, reasons); };

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kage/geometry.hpp"
-#include "opinion/light_truth.hpp"
+#include "oracle/light_truth.hpp"
 #include "test/scene/scene_configs.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/polygon_level.hpp"

@@ -2,7 +2,7 @@
 // Small defects of polyhedra are told: by rays through the unsnapped scene what is wrong from the geometry on, by the
 // judge what the front end makes wrong of right outlines, and what lies below the errors that both excuse by the law
 // that segments and spans give the same bits.
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/tree_frames.hpp"

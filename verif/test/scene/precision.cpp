@@ -14,7 +14,7 @@
 
 #include "geometry/seen.hpp"
 #include "kage/geometry.hpp"
-#include "opinion/exact_screen.hpp"
+#include "oracle/exact_screen.hpp"
 #include "test/support/catch.hpp"
 
 namespace kage::verif {

@@ -3,7 +3,7 @@
 // gets wrong must be what the snap to 1/256 pixel can do.
 //
 // `scene_rays "[full]" -s` does every pixel of 640x480 and prints how many pixels the snap changes (minutes).
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "test/support/catch.hpp"
 
 namespace kage::verif {

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "extremes/shadow_checks.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "test/extremes/hold.hpp"
 
 namespace kage::verif {

@@ -5,7 +5,7 @@
 
 #include "geometry/shade.hpp"
 #include "kage/config.hpp"
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 

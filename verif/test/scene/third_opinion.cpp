@@ -6,7 +6,7 @@
 #include <cstdio>
 
 #include "kage/light.hpp"
-#include "opinion/embree_scene.hpp"
+#include "oracle/embree_scene.hpp"
 #include "stimulus/on_ground.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/installed.hpp"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "kage/core.hpp"
-#include "opinion/simple_core.hpp"
+#include "oracle/simple_core.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
 #include "stimulus/polygon_frames.hpp"

@@ -5,7 +5,7 @@
 #include "kage/frontend.hpp"
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
-#include "opinion/oracle.hpp"
+#include "oracle/oracle.hpp"
 #include "test/support/catch.hpp"
 
 namespace kage {

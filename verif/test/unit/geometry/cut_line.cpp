@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "geometry/translucent.hpp"
-#include "opinion/cut_oracle.hpp"
+#include "oracle/cut_oracle.hpp"
 #include "stimulus/random.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "extremes/lights.hpp"
-#include "opinion/penumbra_truth.hpp"
+#include "oracle/penumbra_truth.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "opinion/ray_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "opinion/light_oracle.hpp"
+#include "oracle/light_oracle.hpp"
 #include "shadow/shadow_caster.hpp"
 #include "stimulus/shapes.hpp"
 

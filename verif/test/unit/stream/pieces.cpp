@@ -8,7 +8,7 @@
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
-#include "opinion/simple_core.hpp"
+#include "oracle/simple_core.hpp"
 #include "stimulus/damage.hpp"
 #include "stimulus/frames.hpp"
 #include "stimulus/polygon_frames.hpp"

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A run on a board as a run of kage cosim is told: its record, its pictures and its page.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "board/pack_run.hpp"
+#include "cosim/report/run_record.hpp"
+#include "file/temp_file.hpp"
+#include "kage/cosim.hpp"
+#include "vectors/pack.hpp"
+
+namespace kage::board {
+
+/// What was played, and what came of it.
+struct BoardRun {
+  const vectors::Pack& pack;
+  std::string folder;  ///< the pack's
+  std::string port;
+  const PackVerdict& verdict;
+  std::string again;  ///< the command line that repeats it
+  std::string kage;   ///< the version that made it, "kage 0.1.0"
+};
+
+/// The record; with an `out` that is not empty also pictures of the frames, a stream file of them, by which `kage
+/// explain` tells what the page has no room for, and report.html, among `files`. That these cannot be written leaves
+/// the verdict as it is, and a note.
+report::RunRecord record_of(const BoardRun& run, const std::string& out, TempFiles& files, cosim::Host& host);
+
+}  // namespace kage::board

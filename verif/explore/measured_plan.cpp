@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "explore/measured_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "contract/params.hpp"
+#include "explore/screen_truth.hpp"
+#include "kage/error.hpp"
+#include "number/counted.hpp"
+#include "plan/demand.hpp"
+#include "plan/figures.hpp"
+#include "plan/widths.hpp"
+
+namespace kage::explore {
+namespace {
+
+constexpr const char* kCannot = "cannot represent the scene";
+
+/// A frame with all that is true of it.
+struct Judged {
+  SceneFrame frame;
+  const DrawOptions* draw = nullptr;
+  ScreenTruth truth;
+  DrawnFrame finest;
+};
+
+/// The same features with every width that may be lowered at its finest.
+Config finest_of(Config c) {
+  c.z_bits = kGreatest.z_bits;
+  c.z_frac = kGreatest.z_frac;
+  if (c.smooth > 0) c.color_frac = kGreatest.color_frac;
+  if (c.dsf_bits > 0) c.shade_frac = kGreatest.shade_frac;
+  if (c.class_bits > 1) c.class_bits = kGreatest.class_bits;
+  return c;
+}
+
+/// A width that may be lowered, and its steps.
+struct Width {
+  int Config::*member;
+  int least;
+  int (*step)(int);
+};
+
+int fraction_step(int v) { return plan::position_step(std::max(v, 1)); }
+int shade_step(int v) { return std::min(plan::four_step(v), kGreatest.shade_frac); }
+
+/// The widths that may be lowered of a configuration, each with its least value.
+std::vector<Width> widths_of(const Config& c) {
+  std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
+  if (c.smooth > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
+  if (c.dsf_bits > 0) list.push_back({&Config::shade_frac, 1, shade_step});
+  // With one bit there is no table, which several lights need.
+  if (c.class_bits > 1) list.push_back({&Config::class_bits, 2, plan::class_step});
+  return list;
+}
+
+}  // namespace
+
+struct MeasuredPlan::Data {
+  std::span<const PlannedScene> scenes;
+  MeasuredLimits limits;
+  std::function<void()> step;
+  plan::Features features;
+  std::vector<Judged> frames;  // empty until they are asked for
+  std::uint64_t pixels = 0;
+  std::vector<Lowered> lowered;
+
+  void judge_all() {
+    if (!frames.empty()) return;
+    features = plan::features_of(scenes);
+    // Parity is right for any caster, so its volumes are what the oracle is asked about.
+    const Config config = finest_of(plan::finest(features, features.needs.shadows ? 1 : 0, 0));
+    for (const PlannedScene& scene : scenes) {
+      const int count = plan::frames_of(scene);
+      for (int i = 0; i < count; ++i) {
+        step();
+        Judged j;
+        j.frame = scene.scene->frame(i, count);
+        j.draw = &scene.draw;
+        const FrameGeometry g =
+            make_geometry(j.frame, config, scene.draw.width, scene.draw.height, {.look = scene.draw.look});
+        j.truth = screen_truth(g, config, scene.draw.threads);
+        j.finest = draw(j.frame, config, scene.draw);
+        pixels += j.truth.pixels.size();
+        frames.push_back(std::move(j));
+      }
+    }
+  }
+};
+
+MeasuredPlan::MeasuredPlan(std::span<const PlannedScene> scenes, const MeasuredLimits& limits,
+                           std::function<void()> step)
+    : data_(std::make_unique<Data>()) {
+  data_->scenes = scenes;
+  data_->limits = limits;
+  data_->step = std::move(step);
+}
+
+MeasuredPlan::~MeasuredPlan() = default;
+
+bool MeasuredPlan::within(const Accuracy& a) const {
+  const MeasuredLimits& l = data_->limits;
+  return a.z_max <= l.z && a.color_max <= l.color && (!l.wrong || a.wrong_ppm(data_->pixels) <= *l.wrong);
+}
+
+std::optional<Accuracy> MeasuredPlan::measure(const Config& config, bool whole) {
+  data_->judge_all();
+  Accuracy all;
+  for (const Judged& j : data_->frames) {
+    data_->step();
+    try {
+      all += compare(j.truth, j.finest, draw(j.frame, config, *j.draw), config);
+    } catch (const Error&) {
+      return std::nullopt;
+    }
+    if (!whole && !within(all)) break;
+  }
+  return all;
+}
+
+std::string MeasuredPlan::text(const Accuracy& a) const {
+  const MeasuredLimits& l = data_->limits;
+  const auto figure = [](double value, double limit, const char* name, int digits) {
+    const plan::FigureText t = plan::told_apart(value, limit, digits);
+    return std::pair(t.value, value > limit ? fmt::format(" (over {} {})", name, t.limit) : std::string());
+  };
+  const double ppm = a.wrong_ppm(data_->pixels);
+  const auto [wrong, over_wrong] = figure(ppm, l.wrong.value_or(ppm), "--max-wrong", 6);
+  const auto [z, over_z] = figure(a.z_max, l.z, "--max-z", 3);
+  const std::string over_color = a.color_max > l.color ? fmt::format(" (over --max-color {})", l.color) : std::string();
+  return fmt::format("{} ppm wrong{}, depth off by {}{}, colour by {}{}", wrong, over_wrong, z, over_z,
+                     counted(a.color_max, "step"), over_color);
+}
+
+std::string MeasuredPlan::limits_text() const {
+  const MeasuredLimits& l = data_->limits;
+  return (l.wrong ? fmt::format("--max-wrong {:.6g}, ", *l.wrong) : std::string()) +
+         (l.z < 1 ? fmt::format("--max-z {:.3g}, ", l.z) : std::string()) + fmt::format("--max-color {}", l.color);
+}
+
+std::string MeasuredPlan::widths_text(const Config& config) {
+  std::string text;
+  for (const Width& w : widths_of(config))
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", info_of(w.member).name, config.*w.member);
+  return text;
+}
+
+const MeasuredPlan::Lowered* MeasuredPlan::lowered(const Config& config) const {
+  for (const Lowered& l : data_->lowered) {
+    Config same = l.taken;
+    same.arrangement = config.arrangement;
+    same.lanes = config.lanes;
+    same.beat_words = config.beat_words;
+    if (same == config) return &l;
+  }
+  return nullptr;
+}
+
+void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
+  const auto serves = [&](const std::optional<Accuracy>& a) { return a && within(*a); };
+  Config at = widths;
+  if (!serves(measure(at))) {
+    at = finest_of(at);
+    if (!serves(measure(at))) {
+      const std::optional<Accuracy> most = measure(at, true);
+      throw Error(fmt::format("the finest widths ({}) {}", widths_text(at), most ? "give " + text(*most) : kCannot));
+    }
+  }
+  const std::vector<Width> list = widths_of(at);
+  // One width after the other, until a whole round lowers none: then each of them, one less, was over a limit.
+  std::vector<std::string> one_less(list.size());
+  for (bool lowered = true; lowered;) {
+    lowered = false;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+      const Width& w = list[k];
+      while (at.*w.member > w.least) {
+        Config less = at;
+        less.*w.member -= 1;
+        const std::optional<Accuracy> a = measure(less);
+        if (!serves(a)) {
+          const std::optional<Accuracy> all = a ? measure(less, true) : a;
+          one_less[k] = fmt::format("; {} {}", at.*w.member - 1, all ? "give " + text(*all) : kCannot);
+          break;
+        }
+        at = less;
+        lowered = true;
+      }
+      if (at.*w.member == w.least)
+        one_less[k] =
+            w.least == info_of(w.member).min ? "; no core has fewer" : fmt::format("; {} {}", w.least - 1, kCannot);
+    }
+  }
+  Lowered found{at, measure(at, true).value(), at, {}};
+  for (const Width& w : list) found.taken.*w.member = w.step(at.*w.member);
+  // More bits are finer, but other roundings may move more pixels of these frames: then what was measured is taken.
+  const std::optional<Accuracy> stepped = measure(found.taken, true);
+  const bool exact = !serves(stepped);
+  if (exact) found.taken = at;
+  found.taken_gives = exact ? found.least_gives : *stepped;
+  const std::string kept = text(found.least_gives);
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const Width& w = list[k];
+    const auto name = info_of(w.member).name;
+    const auto reason =
+        std::find_if(reasons.begin(), reasons.end(), [&](const PlanReason& r) { return r.parameter == name; });
+    if (reason == reasons.end()) continue;
+    const int raw = at.*w.member;
+    reason->value = found.taken.*w.member;
+    reason->text = fmt::format("measured: {} give {}{}{}", raw, kept, one_less[k],
+                               exact && w.step(raw) != raw ? std::string(" (the next steps are over a limit)")
+                               : reason->value == raw      ? std::string()
+                                                           : fmt::format(" (the next step is {})", reason->value));
+  }
+  widths = found.taken;
+  data_->lowered.push_back(found);
+}
+
+}  // namespace kage::explore

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is wrong in the pictures of a sweep's point, by the oracle, by rays, and against the finest picture.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "explore/accuracy.hpp"
+#include "explore/steps.hpp"
+#include "explore/sweep_scene.hpp"
+#include "kage/image.hpp"
+
+namespace kage::explore {
+
+/// Of all frames of a point.
+struct PointAccuracy {
+  PictureError by_truth;         ///< over error_map()
+  double z_error_max_lsb = 0;    ///< of a stored depth against the exact one of the point's own snap
+  std::uint64_t ray_pixels = 0;  ///< that rays were asked about; 0: they cannot be (Look::cull)
+  std::uint64_t ray_visible_wrong = 0;
+  std::uint64_t ray_shadow_pixels = 0;  ///< of these, lit pixels with a light that can be compared
+  std::uint64_t ray_shadow_wrong = 0;   ///< of these, with another number of shadowed samples of some light
+  double ray_shadow_share = 0;          ///< sum over them of how far a light's share in shadow is off, at most
+  std::uint64_t ray_layer_pixels = 0;   ///< pixels with two layers or more that picture and rays have
+  std::uint64_t ray_layers_wrong = 0;   ///< of these, whose order is another
+  PictureError all;                     ///< against the finest picture
+  Steps steps;                          ///< besides those of the finest picture
+  double flip = 0;                      ///< sum over the frames of the mean of FLIP; only if asked for
+
+  PointAccuracy& operator+=(const PointAccuracy& o);
+};
+
+/// What is wrong in a frame of a point that was drawn as `drawn`: faces and shadows by the oracle of the finest snap,
+/// of as many samples; colours against the finest picture; what is gross by the oracle of the point's own snap.
+ErrorMap error_map(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn);
+
+/// The colours of a drawn frame.
+Image image_of(const DrawnFrame& drawn);
+
+/// Measures a frame of a point that was drawn as `drawn`.
+PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, bool flip);
+
+/// How far the share of a soft light's samples beyond a straight edge is from the share of the light's area, over edges
+/// at all places and of all directions: of the light of the frame that does worst. None: no light is soft.
+struct SoftShare {
+  double rms = 0;
+  double worst = 0;
+};
+std::optional<SoftShare> soft_share(const SceneFrame& frame, const SweepPoint& point);
+
+/// Of PictureError::squares, in dB; none if all colours are equal.
+std::optional<double> psnr(double squares, std::uint64_t pixels);
+
+}  // namespace kage::explore

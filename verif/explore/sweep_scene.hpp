@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The frames of a scene with what is true of them, each made once and kept for all configurations of a sweep: the
+// oracle's answers, those of exact rays, the picture with everything at its finest, and what each source of error does
+// alone. For several threads at once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "explore/accuracy.hpp"
+#include "explore/error_map.hpp"
+#include "explore/screen_truth.hpp"
+#include "explore/sweep_plan.hpp"
+#include "kage/pipeline.hpp"
+
+namespace kage::explore {
+
+/// What a picture's error comes from.
+enum class ErrorSource : std::uint8_t { snapping, depth, color, samples, classes, order };
+inline constexpr std::array kErrorSources{ErrorSource::snapping, ErrorSource::depth,   ErrorSource::color,
+                                          ErrorSource::samples,  ErrorSource::classes, ErrorSource::order};
+std::string_view name_of(ErrorSource source);
+
+/// What exact rays through the unsnapped scene say of a pixel.
+struct RayPixel {
+  int x = 0;
+  int y = 0;
+  std::uint32_t face = kNothing;  ///< opaque
+  /// By light, how many of its samples are kept from the pixel; -1: it is not to be compared, because nothing was
+  /// asked, there is no such light, or some of its samples are on the other side of the face than the eye.
+  std::array<int, 8> counts{-1, -1, -1, -1, -1, -1, -1, -1};
+  /// Translucent faces before it, back to front. None if two are at one distance, where either order is right.
+  std::vector<std::uint32_t> layers;
+};
+
+class SweepScene {
+ public:
+  /// `draw` has the number of frames, at least 1, the threads that work on one, and the scene's name. `base` says
+  /// whether lights are looked up in a table. `step` is called now and then, by several threads, and what it throws
+  /// goes through.
+  SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& draw, const SweepPoint& base,
+             std::function<void()> step);
+  ~SweepScene();
+  SweepScene(const SweepScene&) = delete;
+  SweepScene& operator=(const SweepScene&) = delete;
+
+  [[nodiscard]] const std::string& name() const;
+  [[nodiscard]] int frames() const;
+  [[nodiscard]] const SceneFrame& frame(int index) const;
+  [[nodiscard]] const std::shared_ptr<const Scene>& scene() const;
+  /// SHA-256 of all that decides the frames' pictures: faces with their colours and alpha, lights, cameras. Another
+  /// file of the same name, or the same with another --alpha, is another scene.
+  [[nodiscard]] const std::string& identity() const;
+  /// What its frames ask for. More than one sample: some light is soft.
+  [[nodiscard]] const Needs& needs() const;
+  [[nodiscard]] DrawOptions draw_options(const SweepPoint& point) const;
+
+  /// The point with everything that changes a picture at its finest: 8 bits of snapped positions, the widest depth,
+  /// colour and shares, the most samples and classes, exact order.
+  [[nodiscard]] SweepPoint finest(const SweepPoint& point) const;
+  /// That, but for one source, which is as the point has it.
+  [[nodiscard]] SweepPoint alone(const SweepPoint& point, ErrorSource source) const;
+  /// How many samples each light of a frame has.
+  [[nodiscard]] std::vector<int> light_samples(int index, const SweepPoint& point) const;
+
+  /// The oracle's answers for a snap of so many bits, with the samples of the point.
+  std::shared_ptr<const ScreenTruth> truth(int index, const SweepPoint& point, int sub_bits);
+  std::shared_ptr<const DrawnFrame> finest_picture(int index, const SweepPoint& point);
+  /// Of pixels that are spread evenly over the picture: all of them, or as many as seconds allow; lights, with the
+  /// samples of the point, of fewer of them where there are many.
+  std::shared_ptr<const std::vector<RayPixel>> rays(int index, const SweepPoint& point);
+  /// What is wrong in the picture of alone(point, source) against the finest one. It is not kept.
+  ErrorMap map_of(int index, const SweepPoint& point, ErrorSource source);
+  /// The sums over that, kept.
+  std::shared_ptr<const PictureError> error_of(int index, const SweepPoint& point, ErrorSource source);
+
+  /// Drops all that is kept of a frame, which no other thread works on.
+  void forget(int index);
+
+ private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+}  // namespace kage::explore
