@@ -23,4 +23,11 @@ struct ShardFile {
 /// is called before each file; it may throw, which ends it.
 std::vector<ShardFile> read_shards(const std::vector<std::string>& files, const std::function<void()>& wait);
 
+/// The records of those that have frames of a scene; there is one.
+std::vector<const SceneRecord*> scene_of_shards(const std::vector<ShardFile>& shards, std::size_t scene);
+
+/// The record of the run that read_shards() read all shards of: as one run would have made it, but for what each shard
+/// tells of its own frames alone, which stays with it, in SceneRecord::shards.
+RunRecord joined_record(const std::vector<ShardFile>& shards);
+
 }  // namespace kage::report

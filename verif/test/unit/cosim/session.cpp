@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <set>
 
+#include "cosim/report/shards.hpp"
 #include "cosim/session/command_lines.hpp"
 #include "kage/error.hpp"
 #include "test/support/catch.hpp"
@@ -136,6 +137,45 @@ TEST_CASE("shards have all frames once") {
   REQUIRE(std::set(seen.begin(), seen.end()).size() == 2 * kFrames);
   o.shard = {.index = 14, .count = 14, .given = true};
   REQUIRE_THROWS_WITH(go(o, host, cores), "--shard 14/14: the scenes have only 12 frames");
+}
+
+TEST_CASE("the record of joined shards is that of the whole run") {
+  Host host;
+  for (const int wrong : {-1, 4}) {
+    FakeCores cores;
+    cores.wrong = wrong;
+    CosimOptions o = small();
+    o.inputs = {"courtyard", "glass"};
+    o.coverage = true;
+    const report::RunRecord whole = go(o, host, cores);
+    const TempDirectory dir;
+    std::vector<std::string> files;
+    o.shard.given = true;
+    o.shard.count = 5;
+    for (o.shard.index = 1; o.shard.index <= o.shard.count; ++o.shard.index)
+      files.push_back(dir.write(std::to_string(o.shard.index), report::to_json(go(o, host, cores)).dump()));
+    const report::RunRecord joined = report::joined_record(report::read_shards(files, [] {}));
+    REQUIRE(joined.scenes.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      const report::SceneRecord& a = whole.scenes[i];
+      const report::SceneRecord& b = joined.scenes[i];
+      REQUIRE(a.scene == b.scene);
+      REQUIRE(a.same == b.same);
+      REQUIRE(a.total_frames == b.total_frames);
+      if (wrong >= 0) {
+        REQUIRE(a.first_difference->frame == b.first_difference->frame);
+        REQUIRE(b.frames == kFrames);  // the other shards go on behind it: with 5 for 6 frames none is
+        continue;
+      }
+      REQUIRE(a.frames == b.frames);
+      REQUIRE(a.pixels_compared == b.pixels_compared);
+      REQUIRE(a.spans == b.spans);
+      REQUIRE(a.coverage->frames == b.coverage->frames);
+      for (std::size_t f = 0; f < a.each.size(); ++f) REQUIRE(a.each[f].frame == b.each[f].frame);
+    }
+    files.pop_back();
+    REQUIRE_THROWS_WITH(report::read_shards(files, [] {}), "shard 5/5 is missing");
+  }
 }
 
 TEST_CASE("an interruption before the verdict is thrown, and leaves no file") {
