@@ -111,9 +111,9 @@ struct RtlRun {
 /// shard I has the entries I - 1, I - 1 + N, I - 1 + 2 N, ... Frames that are dear lie side by side, so shards that
 /// take turns have as much to do as one another; and which frames a shard has depends on nothing but I, N and the list.
 struct Shard {
-  int index = 1;  ///< from 1
-  int count = 1;  ///< 1 to kMostFrames
-  bool given = false;
+  int index = 1;       ///< from 1
+  int count = 1;       ///< 1 to kMostFrames
+  bool given = false;  ///< it was asked for, so that reports tell it
 
   /// @param before how many frames the scenes before it have
   /// @return its first frame of a scene; every `count`th follows
@@ -163,14 +163,14 @@ struct CosimOptions : SourceOptions {
 
 /// The stage of the RTL that departs first from what the golden core does.
 struct FirstDivergence {
-  std::string module;    ///< "pixel_banked"
-  std::string field;     ///< of what passes there
-  std::string expected;  ///< its value in the golden core
-  std::string actual;    ///< its value in the RTL
-  int frame = 0;         ///< in which it is, which may be one before that of the first difference
-  std::uint64_t cycle = 0;
-  std::uint64_t token = 0;
-  std::string text;  ///< all of it, in one line
+  std::string module;       ///< "pixel_banked"
+  std::string field;        ///< of what passes there
+  std::string expected;     ///< its value in the golden core
+  std::string actual;       ///< its value in the RTL
+  int frame = 0;            ///< in which it is, which may be one before that of the first difference
+  std::uint64_t cycle = 0;  ///< of the model's life
+  std::uint64_t token = 0;  ///< its number in the frame
+  std::string text;         ///< all of it, in one line
 };
 
 /// The first difference of a scene.
@@ -187,13 +187,13 @@ struct FirstDifference {
 
 /// What came of a scene.
 struct SceneResult {
-  std::string scene;         ///< its name
-  std::string config;        ///< the configuration's name
-  bool same = true;          ///< nothing differs
-  int frames = 0;            ///< that were compared
-  std::uint64_t pixels = 0;  ///< that were compared
-  std::uint64_t spans = 0;
-  std::uint64_t segments = 0;
+  std::string scene;                          ///< its name
+  std::string config;                         ///< the configuration's name
+  bool same = true;                           ///< nothing differs
+  int frames = 0;                             ///< that were compared
+  std::uint64_t pixels = 0;                   ///< that were compared
+  std::uint64_t spans = 0;                    ///< of the frames compared
+  std::uint64_t segments = 0;                 ///< of the frames compared
   std::uint64_t cycles = 0;                   ///< of the RTL
   std::optional<FirstDifference> difference;  ///< there unless it is the same
   std::vector<std::string> pictures;          ///< files, in `out`: of the frames, or of those that differ
