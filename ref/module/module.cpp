@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "kage/error.hpp"
-#include "module/loader_lock.hpp"
+#include "kage/paths.hpp"
 
 // All are set by CMake.
 #ifndef KAGE_MODULE_VERSION
@@ -29,6 +29,9 @@
 #endif
 #ifndef KAGE_INSTALL_MODULE_DIR
 #define KAGE_INSTALL_MODULE_DIR ""
+#endif
+#ifndef KAGE_INSTALL_DATA_DIR
+#define KAGE_INSTALL_DATA_DIR ""
 #endif
 
 namespace kage {
@@ -49,13 +52,27 @@ bool is_ours(const fs::path& file) {
   return true;
 }
 
-fs::path find(const std::string& file, const std::string& what_for) {
+/// Where an installation's modules are that was moved, by where its data are now: PREFIX/share/kage.
+fs::path beside_data() {
+  const fs::path installed = KAGE_INSTALL_MODULE_DIR;  // PREFIX/lib/kage, or PREFIX/lib/TRIPLET/kage
+  const fs::path data = KAGE_INSTALL_DATA_DIR;
+  if (installed.empty() || data.empty()) return {};
+  return (data_directory() / installed.lexically_relative(data)).lexically_normal();
+}
+
+}  // namespace
+
+const char* const kModuleVersion = KAGE_MODULE_VERSION;
+
+fs::path module_file(const std::string& file, const std::string& what_for) {
   if (const char* env = std::getenv("KAGE_MODULE_DIR"); env != nullptr && *env != '\0') return fs::path(env) / file;
-  for (const char* folder : {KAGE_BUILD_MODULE_DIR, KAGE_INSTALL_MODULE_DIR})
-    if (*folder != '\0' && is_ours(fs::path(folder) / file)) return fs::path(folder) / file;
+  for (const fs::path& folder : {fs::path(KAGE_BUILD_MODULE_DIR), fs::path(KAGE_INSTALL_MODULE_DIR), beside_data()})
+    if (!folder.empty() && is_ours(folder / file)) return folder / file;
   throw Error(fmt::format("{}: not in {} or {}, and {}: build it, or set KAGE_MODULE_DIR", file, KAGE_BUILD_MODULE_DIR,
                           KAGE_INSTALL_MODULE_DIR, what_for));
 }
+
+namespace {
 
 void check_room(const fs::path& path, const std::string& what_for, std::size_t room) {
   void* const free = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -84,13 +101,12 @@ void check_threads(const fs::path& path, const std::string& what_for) {
 }  // namespace
 
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room) {
-  const fs::path path = find("lib" + name + ".so", what_for);
+  const fs::path path = module_file("lib" + name + ".so", what_for);
   if (room > 0) {
     check_room(path, what_for, room);
     check_threads(path, what_for);
   }
   // It may bind symbols of large libraries, so each only when it is called.
-  const std::lock_guard<std::mutex> lock(loader_lock());
   void* const handle = dlopen(path.c_str(), RTLD_LAZY | RTLD_LOCAL);
   if (handle == nullptr) {
     const char* const cause = dlerror();

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 namespace kage {
@@ -17,11 +18,18 @@ struct ModuleHead {
 };
 
 /// Opens libNAME.so from $KAGE_MODULE_DIR if that is set, else from where it was built, else from lib/kage of where it
-/// was installed, unless others than this user and root may write there, and returns what its function NAME_table()
-/// gives. It stays open. Throws Error that names the file that is missing and what cannot be done without it. Libraries
-/// that start threads end the program where one finds no memory, so a module is refused unless `room` bytes of address
-/// space are free; and unless some threads can be started, if `room` is not 0.
+/// was installed, else from there beside kage's data, unless others than this user and root may write there, and
+/// returns what its function NAME_table() gives. It stays open. Throws Error that names the file that is missing and
+/// what cannot be done without it. Libraries that start threads end the program where one finds no memory, so a module
+/// is refused unless `room` bytes of address space are free; and unless some threads can be started, if `room` is not
+/// 0.
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room);
+
+/// The version that both sides must have: ModuleHead.
+extern const char* const kModuleVersion;
+
+/// Where a file beside the modules is, by the same rules as a module. Throws Error as open_module().
+std::filesystem::path module_file(const std::string& file, const std::string& what_for);
 
 /// The table of a module, opened once.
 template <typename Table>

@@ -12,8 +12,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Made when the program begins: a constant within a function is made by the first who asks, and then its end is entered
-// under a lock of the C library, which fork() may leave locked (child.hpp).
 const Json kNoObject = Json::object();
 const Json kNoArray = Json::array();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// From a file to a RawScene. All readers run in the import child; all throw Error.
+// From a file to a RawScene. All readers run in the import process; all throw Error.
 #pragma once
 
 #include <filesystem>

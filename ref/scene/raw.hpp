@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What an importer hands over: the file's data, not yet welded, transformed or animated. It crosses the pipe from the
-// import child (wire.hpp). Angles, units and handedness as in kage/scene.hpp.
+// import process (wire.hpp). Angles, units and handedness as in kage/scene.hpp.
 #pragma once
 
 #include <array>

@@ -18,7 +18,6 @@
 #include "cosim/model/trust.hpp"
 #include "kage/error.hpp"
 #include "kage/paths.hpp"
-#include "module/loader_lock.hpp"
 
 namespace kage::board {
 
@@ -51,10 +50,7 @@ class LoadedBoard : public SimBoard {
  public:
   LoadedBoard(const fs::path& library, Socket socket, const VideoMode& mode, unsigned baud)
       : vga_(mode), screen_(mode) {
-    {
-      const std::scoped_lock lock(loader_lock());
-      library_ = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-    }
+    { library_ = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL); }
     if (library_ == nullptr) throw Error(fmt::format("{}: {}", library.string(), dlerror()));
     // POSIX has it that a symbol's address is a function's where it names one.
     const auto function = reinterpret_cast<const kage_board_functions* (*)()>(dlsym(library_, "kage_board_model"));

@@ -17,7 +17,7 @@ BELOW = {
     "simd": [],
     "arena": [],
     "file": [],
-    "module": [],
+    "module": ["file"],
     "json": ["file"],
     "hls": [],
     "contract": ["file", "number"],

@@ -193,11 +193,9 @@ struct SceneParts {
 class Scene {
  public:
   /// Loads a file (glTF 2.0, OBJ, PLY, STL, OFF, or what else Assimp reads), or a built-in scene. Throws Error that
-  /// names file, place and cause. Import runs in a child process with limits of time and memory; its death is an Error
-  /// like any other. The child is forked, and only the calling thread goes on in it: a lock that another thread holds
-  /// at that moment is held in the child for ever. glibc sees to its own (malloc, stdio); if a reader's or a library's
-  /// is held, loading fails at the limit of time. So load before other threads start, or while they rest. Several
-  /// threads may load at once. Intensities of lights are scaled by one factor, the same in all frames: at the middle of
+  /// names file, place and cause. The file is read by a process of its own, kage-import, which is installed beside
+  /// kage's modules, with limits of time and memory; its death is an Error like any other. Several threads may load at
+  /// once, whatever others do. Intensities of lights are scaled by one factor, the same in all frames: at the middle of
   /// the scene, in the first frame, light that meets a surface head-on from all of them (cones and ranges aside) adds
   /// up to 1 in the largest channel.
   /// @param name_or_path a name of builtin_scenes(), or a file
@@ -205,8 +203,8 @@ class Scene {
   /// @return the scene, which does not change any more
   static Scene load(const std::string& name_or_path, const SceneOptions& options = {});
 
-  /// Makes a scene of parts, as load() makes one of a file: corners are welded, bodies found, lights scaled. Nothing is
-  /// forked. Throws Error that names object and place where the parts are no scene.
+  /// Makes a scene of parts, as load() makes one of a file: corners are welded, bodies found, lights scaled. No process
+  /// is started. Throws Error that names object and place where the parts are no scene.
   /// @param parts what it consists of
   /// @return the scene. Where cameras or lights change, it has as many frames as they have sets; of another number of
   ///         frames each takes the set at its share of the way.

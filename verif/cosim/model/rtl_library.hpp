@@ -6,13 +6,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <mutex>
 #include <string_view>
 
 #include "cosim/model/driver/rtl_model.h"
 #include "kage/defs.hpp"
 #include "kage/error.hpp"
-#include "module/loader_lock.hpp"
 
 namespace kage::cosim {
 
@@ -38,15 +36,11 @@ class RtlLibrary {
 
  private:
   static void* opened(const std::filesystem::path& path) {
-    const std::lock_guard<std::mutex> lock(loader_lock());
     void* const handle = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (handle == nullptr) throw Error(fmt::format("{}: cannot be loaded: {}", path.string(), dlerror()));
     return handle;
   }
-  void close() {
-    const std::lock_guard<std::mutex> lock(loader_lock());
-    dlclose(handle_);
-  }
+  void close() { dlclose(handle_); }
   void check(const std::filesystem::path& path, const Config& config) const {
     if (table_ == nullptr || table_->abi != KAGE_RTL_ABI)
       throw Error(fmt::format("{}: not an RTL model of this version", path.string()));

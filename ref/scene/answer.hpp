@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The import process's side of a question (child.hpp): it does its work within limits, and answers by a pipe.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "child.hpp"
+
+namespace kage::scene {
+
+/// The number by which the process has the pipe's writing end.
+inline constexpr int kAnswerPipe = 3;
+
+// The answer's first byte; a message or a packed scene follows, and a last byte, which says that nothing is missing.
+inline constexpr std::uint8_t kScene = 'S';
+inline constexpr std::uint8_t kError = 'E';
+inline constexpr std::uint8_t kNoMemory = 'M';
+inline constexpr std::uint8_t kDone = '.';
+
+/// Does `work` within the limits, writes what it returns, or why it could not, and ends the process. `parent` is who
+/// asked: with it the process dies. What `work` throws that is no Error is told behind `name`.
+[[noreturn]] void answer(int parent, const std::string& name, const ImportLimits& limits,
+                         const std::function<std::vector<std::uint8_t>()>& work);
+
+}  // namespace kage::scene
