@@ -94,7 +94,7 @@ std::string cosim_line(const CosimOptions& o, bool whole) {
 }  // namespace
 
 CommandLines command_lines(const CosimOptions& options) {
-  if (options.scene) return {};
+  if (options.scene || options.parameters) return {};
   Line rtl;
   defects(rtl, options.rtl);
   rtl.option("--netlist", options.rtl.netlist, std::string());

@@ -23,6 +23,17 @@ namespace {
 // Random frames of a run that does not say how many.
 constexpr int kRandomFrames = 200;
 
+/// The configuration that the options name or have, if they do.
+std::optional<NamedConfig> asked_config(const SourceOptions& options) {
+  if (options.parameters) {
+    NamedConfig config{options.config.empty() ? "given" : options.config, *options.parameters};
+    validate(config.config, config.name);
+    return config;
+  }
+  if (options.config.empty()) return std::nullopt;
+  return load_config(options.config);
+}
+
 }  // namespace
 
 std::string plain_name(const std::filesystem::path& path) {
@@ -69,7 +80,8 @@ Source::Source(const SourceOptions& options, Host& host) : host_(host), options_
     return;
   }
   if (options.scene) {
-    open_scene(options);
+    if (options_.input.empty()) options_.input = options.scene->name();
+    open_scene(options_);
     return;
   }
   refuse_order_tree(options.input);
@@ -95,8 +107,9 @@ void Source::open_random(const SourceOptions& options, verif::Manner manner) {
   refuse(options.cull, "--cull", "have no faces to be left out");
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
   refuse(options.allow_outside, "--allow-outside", "need no files");
-  config_ = load_config(options.config.empty() ? "default" : options.config);
-  if (options.config.empty()) notes_.push_back(fmt::format("configuration: {}", config_.name));
+  const std::optional<NamedConfig> asked = asked_config(options);
+  config_ = asked ? *asked : load_config("default");
+  if (!asked) notes_.push_back(fmt::format("configuration: {}", config_.name));
   add_front_end(options);
   name_ = options.input;
   std::replace(name_.begin(), name_.end(), ':', '_');
@@ -133,8 +146,9 @@ void Source::open_stream(const SourceOptions& options) {
 }
 
 NamedConfig stream_config(const SourceOptions& options, const StreamFile& stream) {
-  if (options.config.empty()) return {"of the stream", stream.config()};
-  NamedConfig config = load_config(options.config);
+  const std::optional<NamedConfig> asked = asked_config(options);
+  if (!asked) return {"of the stream", stream.config()};
+  const NamedConfig& config = *asked;
   for (const ParamInfo& p : kParams)
     if (p.affects_pixels && config.config.*(p.member) != stream.config().*(p.member))
       throw Error(fmt::format("{}: {}: {} is {}, the stream's is {}", options.input, config.name, p.name,
@@ -166,7 +180,8 @@ void Source::load_scene(const SourceOptions& options) {
   const SceneFrame first = scene_->frame(0, frames_);
   notes_ = scene_notes(*scene_, first, options);
   Needs needs = needs_of(*scene_, first, options.size.width, options.size.height, options.samples);
-  if (options.config.empty()) {
+  const bool given = options.parameters.has_value();
+  if (options.config.empty() && !given) {
     try {
       DrawOptions draw = draw_options(options);
       draw.frames = frames_;
@@ -179,14 +194,14 @@ void Source::load_scene(const SourceOptions& options) {
     notes_.push_back(fmt::format("configuration: {}", config_.name));
     return;
   }
-  if (options.config == kPlanned) {
+  if (options.config == kPlanned && !given) {
     config_ = planned_config(options_, scene_, host_);
     notes_.push_back(fmt::format("configuration: plan ({})", config_.config.arrangement == 0
                                                                  ? "systolic"
                                                                  : fmt::format("LANES {}", config_.config.lanes)));
     return;
   }
-  config_ = load_config(options.config);
+  config_ = *asked_config(options);
   std::vector<std::string> missing = lacks(config_.config, needs);
   if (!missing.empty() && options.degrade) {
     degraded_ = missing;

@@ -82,6 +82,7 @@ struct SourceOptions {
   bool size_given = false;                       ///< it was asked for: a stream, which has its own, refuses it
   int frames = 0;                                ///< 0: as many as the scene has
   std::string config;                            ///< a named configuration, a YAML file, or "plan"; empty: a cheap name
+  std::optional<Config> parameters;              ///< the core's, in place of those of `config`, which only names them
   std::uint64_t seed = 1;                        ///< of everything random
   int threads = 0;                               ///< 0: one per processor
   bool degrade = false;                          ///< leave out what the configuration lacks, instead of refusing

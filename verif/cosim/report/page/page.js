@@ -232,11 +232,12 @@ const Report = (() => {
       if (wrong) parts.push(make("p", `This history ends with ${history.color.join(",")}, and the picture has another ` +
           "colour: trust the command below.", {class: "badly"}));
       parts.push(historyList(history, told?.rtl ?? []));
-      parts.push(make("p", "The same in a terminal:", {class: "note"}));
+      if (Explain.data.explain) parts.push(make("p", "The same in a terminal:", {class: "note"}));
     } else {
-      parts.push(make("p", "This page has no room for the tokens of this line. This prints the pixel's history:"));
+      parts.push(make("p", "This page has no room for the tokens of this line." +
+          (Explain.data.explain ? " This prints the pixel's history:" : "")));
     }
-    parts.push(command(Explain.command(number, x, y, differs || (!frame.same && !rtl))));
+    if (Explain.data.explain) parts.push(command(Explain.command(number, x, y, differs || (!frame.same && !rtl))));
     $("pixel").replaceChildren(...parts);
     $("said").textContent = `column ${x}, line ${y}` + (golden ? `, golden ${golden.join(" ")}` : "") +
         (differs ? `, RTL ${rtl.join(" ")}` : "") + (history ? `, ${history.color_text}` : "");
@@ -293,7 +294,9 @@ const Report = (() => {
 
   function rest() {
     const on = run.board ? [", with board ", make("code", run.board.name)] : [", with the RTL of ", make("code", run.rtl)];
-    $("again").append(make("p", ["In ", make("code", run.folder), ...on, ":"]), command(run.again));
+    const where = ["In ", make("code", run.folder), ...on];
+    if (run.again) $("again").append(make("p", [...where, ":"]), command(run.again));
+    else $("again").append(make("p", [...where, ", by a program whose own scene this is: no command line has it."]));
     $("again").append(make("p", run.board ? `The board played for ${run.board.seconds.toFixed(3)} s; its clocks are not counted.`
         : `Seed ${run.seed}. Golden model ${run.golden_seconds.toFixed(3)} s, RTL ${run.rtl_seconds.toFixed(3)} s.`));
     $("again").append(make("p", `Made by ${run.versions.join("; ")}.`, {class: "note"}));

@@ -270,6 +270,22 @@ TEST_CASE("a scene of the program's own, with lights that change") {
   cores.wrong = 2;
   r = go(o, host, cores);
   REQUIRE(r.scenes[0].first_difference->frame == 2);
+  o.config = "tiny";
+  REQUIRE_THROWS_WITH(go(o, host, cores), "mine: configuration tiny lacks DSF_BITS, CHANNELS 3");
+}
+
+TEST_CASE("parameters stand in place of a configuration's name") {
+  Host host;
+  FakeCores cores;
+  CosimOptions o = small();
+  o.config.clear();
+  o.parameters = load_config("full").config;
+  o.parameters->z_bits = 20;
+  report::RunRecord r = go(o, host, cores);
+  REQUIRE(r.scenes[0].config.z_bits == 20);
+  REQUIRE(r.scenes[0].config_name == "given");
+  o.parameters->z_bits = 99;
+  REQUIRE_THROWS_AS(go(o, host, cores), Error);
 }
 
 TEST_CASE("command lines say what the options say") {
