@@ -271,7 +271,8 @@ TEST_CASE("a scene of the program's own, with lights that change") {
   r = go(o, host, cores);
   REQUIRE(r.scenes[0].first_difference->frame == 2);
   o.config = "tiny";
-  REQUIRE_THROWS_WITH(go(o, host, cores), "mine: configuration tiny lacks DSF_BITS, CHANNELS 3");
+  REQUIRE_THROWS_WITH(go(o, host, cores),
+                      "mine: configuration tiny lacks shadows (DSF_BITS > 0), several volumes (FSF)");
 }
 
 TEST_CASE("parameters stand in place of a configuration's name") {
