@@ -14,7 +14,7 @@ namespace kage::cli {
 /// The command line that `command` was given, quoted for a shell, without the options of `leave_out`.
 std::string command_line(const CLI::App& command, const std::vector<std::string>& leave_out = {});
 
-/// Those of a co-simulation that `command` was given, whatever its defaults are.
+/// The lines of a co-simulation, of the options that `command` was given.
 cosim::CommandLines command_lines(const CLI::App& command);
 
 }  // namespace kage::cli

@@ -232,7 +232,7 @@ void add_explain(CLI::App& app, Action& action) {
                             "  kage explain courtyard.kage --pixel 12,40 --json -\n"
                             "  kage explain courtyard --pixel 316,116 --rtl --check --fault wrong_compare\n"
                             "  kage explain penumbra --pixel 320,300 --changes   (soft shadows take many tokens)\n"
-                            "docs/architecture.md says what the words mean, docs/stream.md what each token does.");
+                            "docs/glossary.md says what the words mean, docs/stream.md what each token does.");
   const auto o = std::make_shared<ExplainCommand>();
   option_scene(*c, *o, Taken::random);
   c->add_option("--frame", o->frame, "number of the frame, from 0, default 0")

@@ -76,7 +76,7 @@ Ending receive(const Child& child, const ImportLimits& limits, Clock::time_point
   }
 }
 
-/// What a started process gets of this one: the pipe as kAnswerPipe and standard error, no signal that is blocked or
+/// The inheritance of a started process: the pipe as kAnswerPipe and standard error, no signal that is blocked or
 /// ignored.
 class SpawnSettings {
  public:
@@ -127,7 +127,7 @@ Child begin(const std::vector<std::string>& command, const std::string& name) {
   throw Error(name + ": no import process: " + command[0] + ": " + std::strerror(error));
 }
 
-/// What became of a child. `status` is none where the program reaps all children itself.
+/// The end of a child. `status` is none where the program reaps all children itself.
 struct Outcome {
   Ending ending = Ending::kLarge;
   Bytes bytes;

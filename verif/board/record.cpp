@@ -102,7 +102,7 @@ class Evidence {
     writer.hand_over(files_);
     return path;
   }
-  /// What the board drew is what it must, but for the lines that were captured.
+  /// The board drew the right lines, but for those that were captured.
   void show_difference(cosim::Report& r) {
     const std::uint64_t frame = run_.verdict.captured.front().frame;
     const FrameStatus& s = run_.pack.frames[frame].status;

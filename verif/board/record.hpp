@@ -14,7 +14,7 @@
 
 namespace kage::board {
 
-/// What was played, and what came of it.
+/// A pack that was played, and the verdict.
 struct BoardRun {
   const vectors::Pack& pack;
   std::string folder;  ///< the pack's

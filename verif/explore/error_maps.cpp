@@ -20,7 +20,7 @@ std::filesystem::path beside(const std::filesystem::path& picture, std::string_v
   return picture.parent_path() / fmt::format("{}_error{}.png", picture.stem().string(), what);
 }
 
-/// What a number of shadowed samples is of, if a light is soft.
+/// The total that a number of shadowed samples is part of, if a light is soft.
 std::string samples_text(const std::vector<int>& samples) {
   const int most = samples.empty() ? 1 : *std::max_element(samples.begin(), samples.end());
   return most > 1 ? fmt::format(" (of {} samples a light)", most) : "";

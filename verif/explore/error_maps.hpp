@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is wrong in the pictures of a run, as pictures and as numbers: kage render --error-map.
+// Errors in the pictures of a run, as pictures and as numbers: kage render --error-map.
 #pragma once
 
 #include <filesystem>

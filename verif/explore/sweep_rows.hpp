@@ -72,9 +72,9 @@ class Sweep {
   /// All that decides the clocks of a point, but for the model, which is of the same build.
   [[nodiscard]] std::string clocks_key(const SweptScene& s, std::size_t point) const;
   [[nodiscard]] std::string row_key(const SweptScene& s, std::size_t point, const PointWords& words) const;
-  /// What a row is made of, as a person tells one from another.
+  /// The ingredients of a row, as a person tells one from another.
   [[nodiscard]] MadeOf made_of(const SweptScene& s, std::size_t point) const;
-  /// What the store has of an entry's row; its key, and its words where they are wanted.
+  /// The row that the store has for an entry; its key, and its words where they are wanted.
   struct Place {
     PointWords words;
     std::string key;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a sweep is asked for, and the scenes that it measures, with their points.
+// The options of a sweep, and the scenes that it measures, with their points.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace kage::explore {
 
-/// What a sweep measures, and how. Members without a word of their own are the options of `kage sweep` of their names.
+/// The options of a sweep. Members without a word of their own are the options of `kage sweep` of their names.
 struct SweepOptions : cosim::SourceOptions {
   std::vector<std::string> inputs;
   std::vector<std::string> axes;

@@ -40,7 +40,7 @@ struct LightPoint {
   glm::dvec3 position{0, 0, 0};    ///< else
 };
 
-/// What a light that is no point extends over: the disc or rectangle that two half axes span, or a ball.
+/// The extent of a light that is no point: the disc or rectangle that two half axes span, or a ball.
 enum class LightShape : std::uint8_t {
   point,      ///< nothing: hard shadows
   disc,       ///< an ellipse round `position`, with the half axes
@@ -91,7 +91,7 @@ struct Polygon {
   std::uint32_t triangle = 0;  ///< the largest of its triangles, which has its plane and its shading
 };
 
-/// What shading needs at a corner of a triangle.
+/// The data that shading needs at a corner of a triangle.
 struct ShadingVertex {
   glm::dvec3 normal;  ///< unit, outward; the face's normal where the file has none
   glm::dvec3 color;   ///< base colour times vertex colour
@@ -137,7 +137,7 @@ struct SceneFrame {
   }
 };
 
-/// What of a file is used.
+/// Counts of the parts of a file that are used.
 struct SceneContents {
   std::uint32_t materials = 0;     ///< that faces have
   std::uint32_t translucent = 0;   ///< of these, with alpha below 1
@@ -249,7 +249,7 @@ class Scene {
   std::unique_ptr<Data> data_;
 };
 
-/// What scenes/ has.
+/// The scenes of the folder scenes/.
 /// @return the names of the built-in scenes
 const std::vector<std::string>& builtin_scenes();
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a regression runs: one co-simulation after another, in rounds (docs/regress.md).
+// The runs of a regression: one co-simulation after another, in rounds (docs/regress.md).
 #pragma once
 
 #include <cstdint>

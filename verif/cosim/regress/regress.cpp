@@ -49,7 +49,7 @@ void Regress::run() {
     }
   }
   progress_->clear();
-  // Of runs behind the first difference or trouble nothing is told: how many there are depends on the threads.
+  // Runs behind the first difference or trouble are not told: how many there are depends on the threads.
   done_.erase(done_.upper_bound(end_), done_.end());
   if (trouble_ && trouble_->place < first_) first_ = kNone;
   if (trouble_ && trouble_->place > first_) trouble_.reset();

@@ -25,7 +25,7 @@
 
 namespace kage::cosim {
 
-/// What is run, and for how long.
+/// The runs of a regression, and their time.
 struct RegressOptions : RegressRun {
   std::vector<std::string> configs;  ///< names and files; none: all named ones
   double minutes = 5;
@@ -57,7 +57,7 @@ class Regress {
     std::string config;
     std::string text;  ///< with the names
   };
-  /// What ended the runs, if it was trouble: then what else is told is of the runs before it.
+  /// The trouble that ended the runs, if one did: all else is then told of the runs before it.
   [[nodiscard]] const std::optional<Trouble>& trouble() const { return trouble_; }
 
   /// The run that came out different, once more, with all that kage cosim finds out about it; its lines.
@@ -73,7 +73,7 @@ class Regress {
   [[nodiscard]] const std::string& folder() const { return folder_; }
   [[nodiscard]] const report::SceneRecord& different() const { return done_.at(first_).record; }
 
-  /// What was run, and what came of it. Throws Error where trouble ended the very first run.
+  /// The record of all runs. Throws Error where trouble ended the very first one.
   [[nodiscard]] report::RunRecord record() const;
 
  private:

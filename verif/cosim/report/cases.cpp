@@ -37,7 +37,7 @@ struct Place {
   std::string line;  // or ""
 };
 
-/// Of the stage that differs first; else of the assertion that failed.
+/// The place of the stage that differs first; else of the assertion that failed.
 Place place_of(const DifferenceRecord& difference) {
   if (difference.divergence) return {difference.divergence->file(), ""};
   if (!difference.assertion) return {};

@@ -115,7 +115,7 @@ class Data {
   }
 
  private:
-  /// What a shard, or the run, has of the scene.
+  /// The part of the scene that a shard, or the run, has.
   void part(std::size_t scene, const PartRecord& r, const ShardRecord* shard) {
     const int index = shard != nullptr ? shard->number.index : 1;
     Json& p = parts_[index];

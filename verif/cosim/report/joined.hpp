@@ -12,10 +12,10 @@
 
 namespace kage::report {
 
-/// What a page tells of single frames: of so many, and of those that differ.
+/// The most single frames that a page lists, besides those that differ.
 inline constexpr std::size_t kListedFrames = 1000;
 
-/// Of more runs of kage regress than these the page lists the first, and the last: the one that differs if one does.
+/// The most runs of kage regress that the page lists: the first ones, and the last, which differs if one does.
 inline constexpr std::size_t kListedRuns = 1000;
 
 /// Writes the page over several scenes, runs or shards. It links to the runs' own pages where they are found: beside

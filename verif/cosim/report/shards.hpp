@@ -11,7 +11,7 @@
 
 namespace kage::report {
 
-/// What one shard reported.
+/// The report of one shard.
 struct ShardFile {
   std::string file;
   RunRecord record;

@@ -8,7 +8,7 @@
 namespace kage::report {
 namespace {
 
-/// Those that are not there yet.
+/// Adds the entries that are not there yet.
 void unite(std::vector<std::string>& all, const std::vector<std::string>& more) {
   for (const std::string& text : more)
     if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
@@ -86,7 +86,7 @@ SceneRecord joined(const std::vector<ShardFile>& shards, std::size_t scene) {
     unite(all.pictures, s.pictures);
     unite(all.notes, s.notes);
     const auto& d = s.first_difference;
-    // That of the register check, which has no frame, comes behind those of all frames.
+    // A difference of the register check, which has no frame, comes behind those of all frames.
     const auto place = [](const DifferenceRecord& of) { return of.frame.value_or(cosim::kMostFrames); };
     if (d && (!all.first_difference || place(*d) < place(*all.first_difference))) all.first_difference = d;
     ShardRecord& own = all.shards.emplace_back();

@@ -24,16 +24,16 @@ class Cores {
   Cores(const Cores&) = delete;
   Cores& operator=(const Cores&) = delete;
 
-  /// What core() needs, built where it is not there.
+  /// The model that core() needs, built where it is not there.
   virtual Model model(const NamedConfig& config, const RtlRun& rtl, Host& host) = 0;
 
-  /// What its kept verdicts hang on.
+  /// The identity on which its kept verdicts hang.
   virtual RtlIdentity identity(const NamedConfig& config, Host& host) = 0;
 
   /// A new core.
   virtual std::unique_ptr<Core> core(const Model& model, const Config& config, const RtlOptions& options) = 0;
 
-  /// What is wrong with the registers of a new core (random_registers.hpp). `wait` as of wrong_register().
+  /// The first wrong register of a new core, if one is (random_registers.hpp). `wait` as of wrong_register().
   virtual std::optional<Difference> registers(const Model& model, const Config& config, const RtlOptions& options,
                                               const std::function<void()>& wait) = 0;
 };

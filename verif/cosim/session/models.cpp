@@ -73,7 +73,7 @@ Model model_of(const NamedConfig& config, const RtlRun& rtl, Host& host, ModelFo
                                host.check();
                                progress->show(fmt::format("building {}: {:.0f} s", name, seconds));
                              }};
-  // What a person has not named may be new: whether its model takes a minute is told before the minute passes.
+  // A configuration that nobody has named may be new: whether its model takes a minute is told before it passes.
   if (config.name == kPlanned)
     host.say(fmt::format("kage: {} {}\n", name,
                          cosim::has_model(config.config, options) ? "is there" : "is not there, and is built first"));

@@ -17,7 +17,7 @@ namespace kage::cosim {
 /// How such a run drives the RTL: its stalls, its mutant and, by the seed, when it stalls.
 RtlOptions rtl_options(const RtlRun& rtl, std::uint64_t seed);
 
-/// What a model is for besides pixels.
+/// The use of a model besides pixels.
 enum class ModelFor { kPixels, kMonitors, kWaveforms, kLines };
 
 /// The model of a configuration; says how long it takes where it has to be built. Says too, once in the program's life,

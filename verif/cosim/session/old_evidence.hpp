@@ -8,7 +8,7 @@
 
 namespace kage::cosim {
 
-/// What ends the name of the file that a random frame is kept in: the one that differs, or that right ahead of it.
+/// File suffix of a kept random frame: the one that differs, or the one right ahead of it.
 inline const char* kept_ending(const Difference& d) { return d.ahead ? "_ahead.kage" : ".kage"; }
 
 /// With the new files goes what an earlier run into the folder left of frames that this one has compared: a difference

@@ -12,7 +12,7 @@
 
 namespace kage::cosim {
 
-/// What --config says for it.
+/// The value of --config for it.
 inline constexpr const char* kPlanned = "plan";
 
 /// A scene as a plan takes it, drawn as the options say. `host` and `progress` must outlive it.
@@ -22,7 +22,7 @@ PlannedScene planned_scene(const SourceOptions& options, std::shared_ptr<const S
 /// The progress of a plan, which can be interrupted. `host` and `progress` must outlive it.
 std::function<void(double)> plan_progress(Host& host, Progress& progress);
 
-/// What `kage plan` finds for the scene without further options. Its name is kPlanned.
+/// The configuration that `kage plan` finds for the scene without further options. Its name is kPlanned.
 NamedConfig planned_config(const SourceOptions& options, std::shared_ptr<const Scene> scene, Host& host);
 
 }  // namespace kage::cosim

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a stream at the polygon level is made of.
+// How many polygons of a stream at the polygon level go as polygons, and why the others do not.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace kage::cosim {
 
-/// Of the frames of a scene at the polygon level.
+/// Sums over the frames of a scene at the polygon level.
 class PolygonWays {
  public:
   /// A frame more.

@@ -11,7 +11,7 @@
 
 namespace kage::cosim {
 
-/// What random:mixed asks of the registers, once its frames are the same: a new core gets some random frames, sound and
+/// The register check of random:mixed, once its frames are the same: a new core gets some random frames, sound and
 /// damaged, and its registers are held against what they must say (cosim::wrong_register). A difference is one of
 /// cosim::kBehindFrames, with the register in its remark. `wait` as of wrong_register().
 std::optional<Difference> register_difference(const std::filesystem::path& library, const Config& config,

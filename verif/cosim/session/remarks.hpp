@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a person is told of the pictures of a scene's frames, summed up over the frames.
+// Remarks for a person on the pictures of a scene's frames, summed up over the frames.
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ class FrameRemarks {
 
   void add(const Scene& scene, const SceneFrame& frame);
 
-  /// Those of frames that come behind these.
+  /// Adds the remarks of frames that come behind these.
   void absorb(const FrameRemarks& later);
 
   /// A sentence for each kind of remark, with the number of frames that it is about unless that is all.

@@ -120,7 +120,7 @@ void RunReport::tell_pixels(report::Page& page, const std::optional<Divergence>&
   const Config& config = page.record.config;
   const ReplayOptions options = watch ? watch() : ReplayOptions();
   const auto provenance = source_.provenance(frame);
-  // What an earlier frame left in the core shows only behind it.
+  // State that an earlier frame left in the core shows only behind that frame.
   const int from = divergence ? std::min(frame, divergence->from) : frame;
   const auto begin = std::chrono::steady_clock::now();
   for (const auto& [x, y] : pixels) {

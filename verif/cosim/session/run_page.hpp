@@ -15,7 +15,7 @@
 
 namespace kage::cosim {
 
-/// Of kage and the tools that make RTL models, a line each.
+/// Versions of kage and of the tools that make RTL models, a line each.
 std::vector<std::string> versions();
 
 /// Hears the words of a run's frames on their way and keeps what the page needs of them.
@@ -26,7 +26,7 @@ class Listener {
   /// As the source gives them. That their tokens cannot be kept for the page does not end the run.
   TokenCounts frame(int index, const WordSink& sink);
 
-  /// What another has heard of frames that come behind these.
+  /// Takes over the frames of another listener, which come behind these.
   void absorb(const Listener& later);
 
   /// Throws Error if they could not be kept.

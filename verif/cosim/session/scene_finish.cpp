@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is found out and written once a scene's frames are compared.
+// The search for a difference's cause, and the record, once a scene's frames are compared.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -17,7 +17,7 @@
 namespace kage::cosim {
 namespace {
 
-/// What decides words and clocks besides scene, size, configuration and seed.
+/// The options that decide words and clocks besides scene, size, configuration and seed.
 report::OptionsRecord options_of(const CosimOptions& o, Level level) {
   return {.fault = o.rtl.fault,
           .netlist = o.rtl.netlist,
@@ -50,7 +50,7 @@ std::optional<Divergence> SceneRun::find_divergence(int frame) {
   const Config& config = source.config();
   const ReplayOptions options = replay(ModelFor::kMonitors);
   progress_->show("looking for the stage that differs first");
-  // Of a netlist the ports are all that can be watched.
+  // A netlist has no nets to watch but its ports.
   const std::string missing =
       o_.rtl.netlist.empty() ? cosim::make_rtl(options.library, config)->missing_monitors() : "";
   if (!missing.empty())

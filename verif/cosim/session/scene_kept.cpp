@@ -46,7 +46,7 @@ bool SceneRun::differs_alone(const std::vector<std::uint32_t>& words, int number
   return !cosim::run(number + 1, feed, *golden, *rtl, options).same;
 }
 
-/// What a frame takes to come out different that is the same as a file of its own, and how that is run again.
+/// A frame may come out the same as a file of its own: finds what it takes to differ, and how that is run again.
 void SceneRun::look_for_needs(report::KeptRecord& kept, const Difference& difference) const {
   const int frame = difference.frame;
   const std::vector<std::uint32_t> words = source_->words(frame);

@@ -32,7 +32,7 @@ void SceneRun::open_verdicts() {
     return no_verdicts(e.what());
   }
   recall.context = cosim::recall_context(rtl, rtl_);
-  // What only a history of many frames shows is for --jobs 1.
+  // A defect that only a history of many frames shows is for --jobs 1.
   recall.whole = o_.jobs == 1;
   model_key_ = rtl.model_key;
   recall_ = std::move(recall);

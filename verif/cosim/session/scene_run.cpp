@@ -23,7 +23,7 @@ constexpr std::uint64_t kJobBytes = std::uint64_t{256} << 20;
 /// Bytes of what the RTL writes that a range keeps.
 constexpr std::size_t kMostRtlText = std::size_t{1} << 20;
 
-/// Those of a scene, of which kage explain takes one.
+/// The command lines of one scene, since kage explain takes one.
 CommandLines lines_of(const CosimOptions& o) {
   CommandLines lines = o.lines;
   if (o.scene) return lines;
@@ -104,7 +104,7 @@ void SceneRun::run(int range) {
   }
 }
 
-/// What all ways to run a range's frames have in common.
+/// The options that all ways to run a range's frames have in common.
 RunOptions SceneRun::run_options(const FrameRange& range, TempFiles& files) {
   RunOptions options;
   options.out = o_.out;
@@ -232,7 +232,7 @@ Report SceneRun::settled(Report report) {
   return report;
 }
 
-/// What one thread would have found, and its files.
+/// The report that one thread would have made, and its files.
 Report SceneRun::join(TempFiles& files) {
   std::vector<Report> reports;
   bool whole = false;  // ranges are run anew, from the first frame on

@@ -45,7 +45,7 @@ class SceneRun {
   [[nodiscard]] const Source& source() const { return *source_; }
   [[nodiscard]] const CosimOptions& options() const { return o_; }
   [[nodiscard]] int total() const { return total_; }  ///< its frames
-  /// Those of the shard.
+  /// How many of them the shard has.
   [[nodiscard]] int frames() const { return o_.frame >= 0 ? 1 : o_.shard.frames(total_, before_); }
 
   /// Makes its folder, its model, and so many ranges of its frames, or fewer.
@@ -111,7 +111,7 @@ class SceneRun {
   Report join(TempFiles& files);
   [[nodiscard]] ReplayOptions replay(ModelFor what) const;
 
-  // What is found out after the verdict: scene_finish.cpp, scene_kept.cpp.
+  // After the verdict: scene_finish.cpp, scene_kept.cpp.
   struct Search {
     std::optional<Divergence> divergence;
     bool made = false;  // the stage that differs first was looked for

@@ -86,7 +86,7 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   bool drawn = counts.made > 0;
   for (std::size_t kind = 0; kind < kKindInfo.size(); ++kind)
     drawn = drawn || (kKindInfo[kind].draws && counts.of_kind[kind] > 0);
-  // What a core may refuse for its header or its order says nothing of faces.
+  // A frame that a core may refuse for its header or its order says nothing of faces.
   if (!is_unchecked(index) && !drawn) ++blank_;
   return counts;
 }

@@ -21,7 +21,7 @@
 
 namespace kage::cosim {
 
-/// What pictures and lines of output are called by: a line break in a file's name would begin a line of its own.
+/// The name of pictures and of lines of output: a line break in a file's name would begin a line of its own.
 std::string plain_name(const std::filesystem::path& path);
 
 /// Throws Error if a file is a visibility order's tree: no command but order takes one.
@@ -52,7 +52,7 @@ class Source : public FrameSource {
   /// notes for frames after `last` only.
   [[nodiscard]] std::unique_ptr<Source> share(int last) const;
 
-  /// What a share has counted counts here too. Shares come in the order of their frames.
+  /// Adds the counts of a share. Shares come in the order of their frames.
   void absorb(const Source& share);
 
   /// Nothing is counted yet, as of a share of frames behind `last`.
@@ -70,7 +70,7 @@ class Source : public FrameSource {
   /// Adds a note.
   void note(std::string text) { notes_.push_back(std::move(text)); }
 
-  /// What is drawn; nothing if the frames are no scene's.
+  /// The scene; nothing if the frames are no scene's.
   [[nodiscard]] std::shared_ptr<const Scene> scene() const { return scene_; }
 
   /// Whether the frames come from a stream file.
@@ -82,16 +82,16 @@ class Source : public FrameSource {
   /// Whether a core may refuse some of them: any is unchecked.
   [[nodiscard]] bool may_be_refused() const;
 
-  /// What random:mixed puts ahead of some frames: RtlOptions::prelude; of other sources nothing.
+  /// The frames that random:mixed puts ahead of some: RtlOptions::prelude. Other sources have none.
   [[nodiscard]] std::function<std::vector<std::uint32_t>(int)> prelude() const;
 
   /// Whether they are random.
   [[nodiscard]] bool is_random() const { return random_.has_value(); }
 
-  /// What the frames' tokens are; of a stream those of its first frame.
+  /// The level of the frames' tokens; a stream's is that of its first frame.
   [[nodiscard]] Level level() const;
 
-  /// What --degrade left out.
+  /// The features that --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 
   /// How each component of the scene went in the frames made so far, if the configuration has units: object, component,
@@ -110,7 +110,7 @@ class Source : public FrameSource {
   /// between the pieces, and while translucent faces are put in order, which shows its own progress.
   TokenCounts frame(int index, const WordSink& sink) override;
 
-  /// What the tokens of frame `index` come from; nothing if the frames are a stream's.
+  /// The origins of the tokens of frame `index`; nothing if the frames are a stream's.
   [[nodiscard]] std::optional<Provenance> provenance(int index);
 
  private:

@@ -24,7 +24,7 @@ namespace kage::cosim {
 /// The most frames of a run, and the most shards.
 inline constexpr int kMostFrames = 1000000;
 
-/// What Host::check() throws to end a run. It is no std::exception, so that no handler of errors takes it for one.
+/// Thrown by Host::check() to end a run. It is no std::exception, so that no handler of errors takes it for one.
 struct Interrupted {};
 
 /// How far some work has come, for a person.
@@ -141,7 +141,7 @@ struct CommandLines {
   std::string explain;   ///< its options that kage explain has, without those of `rtl`
 };
 
-/// What is co-simulated, and how. Each member is the option of `kage cosim` of that name.
+/// A co-simulation: its scenes, and how they are run. Each member is the option of `kage cosim` of that name.
 struct CosimOptions : SourceOptions {
   std::vector<std::string> inputs;  ///< several scenes, each as `input`; empty: `input`, or `scene`
   std::string out;                  ///< a folder for pictures and report.html; empty: no file is written
@@ -186,7 +186,7 @@ struct FirstDifference {
   std::optional<FirstDivergence> divergence;  ///< if it was looked for and found
 };
 
-/// What came of a scene.
+/// The result of a scene.
 struct SceneResult {
   std::string scene;                          ///< its name
   std::string config;                         ///< the configuration's name
@@ -201,7 +201,7 @@ struct SceneResult {
   std::vector<std::string> notes;             ///< sentences for a person
 };
 
-/// What came of a run.
+/// The result of a run.
 struct CosimResult {
   bool same = true;                 ///< of all scenes
   bool interrupted = false;         ///< after the verdict, while more was found out about it
