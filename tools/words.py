@@ -16,6 +16,7 @@ NO_NOUN = re.compile(
     r"|Those (of|that|which|who|with|without|are|were|for|in|on))\b(?![^?]*\?$)"
 )
 END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(*_`\[]*[A-Z0-9`])")
+ENTRY = re.compile(END.pattern + r"|;\s+")
 
 
 def plain(text):
@@ -27,13 +28,13 @@ def plain(text):
 
 
 def paragraphs(lines):
-    """(first line's number, text) of each paragraph, list entry, table cell and caption outside of code blocks."""
+    """(first line's number, text, whether it is a cell) of each paragraph, list entry, table cell and caption outside of code blocks."""
     code = False
     begin, words = 0, []
 
     def closed():
         nonlocal words
-        out = [(begin, " ".join(words))] if words else []
+        out = [(begin, " ".join(words), False)] if words else []
         words = []
         return out
 
@@ -47,7 +48,9 @@ def paragraphs(lines):
             continue
         if bare.startswith("|"):
             yield from closed()
-            yield from ((number, cell.strip()) for cell in re.split(r"(?<!\\)\|", bare.strip("|")) if cell.strip())
+            yield from (
+                (number, cell.strip(), True) for cell in re.split(r"(?<!\\)\|", bare.strip("|")) if cell.strip()
+            )
             continue
         if not bare or bare.startswith("#") or re.match(r"([*+-]|\d+[.)])\s", bare) or line.startswith("    "):
             yield from closed()
@@ -60,8 +63,9 @@ def paragraphs(lines):
 
 
 def faults(path):
-    for number, text in paragraphs(path.read_text().splitlines()):
-        for sentence in END.split(plain(text)):
+    for number, text, cell in paragraphs(path.read_text().splitlines()):
+        # A cell of a table may be a list, whose entries semicolons part.
+        for sentence in (END if not cell else ENTRY).split(plain(text)):
             words = [w for w in sentence.split() if re.search(r"\w", w)]
             if len(words) > MOST:
                 yield f"{path}:{number}: {len(words)} words: {sentence}"

@@ -64,12 +64,41 @@ fs::path beside_data() {
 
 const char* const kModuleVersion = KAGE_MODULE_VERSION;
 
-fs::path module_file(const std::string& file, const std::string& what_for) {
-  if (const char* env = std::getenv("KAGE_MODULE_DIR"); env != nullptr && *env != '\0') return fs::path(env) / file;
+namespace {
+
+/// The first of kage's own folders that has the file; empty if none has.
+fs::path in_own_folders(const std::string& file) {
   for (const fs::path& folder : {fs::path(KAGE_BUILD_MODULE_DIR), fs::path(KAGE_INSTALL_MODULE_DIR), beside_data()})
     if (!folder.empty() && is_ours(folder / file)) return folder / file;
+  return {};
+}
+
+fs::path named_folder() {
+  const char* const named = std::getenv("KAGE_MODULE_DIR");
+  return named == nullptr ? fs::path() : fs::path(named);
+}
+
+[[noreturn]] void refuse_missing(const std::string& file, const std::string& what_for) {
   throw Error(fmt::format("{}: not in {} or {}, and {}: build it, or set KAGE_MODULE_DIR", file, KAGE_BUILD_MODULE_DIR,
                           KAGE_INSTALL_MODULE_DIR, what_for));
+}
+
+fs::path find(const std::string& file, const std::string& what_for) {
+  if (const fs::path named = named_folder(); !named.empty()) return named / file;
+  const fs::path own = in_own_folders(file);
+  if (own.empty()) refuse_missing(file, what_for);
+  return own;
+}
+
+}  // namespace
+
+fs::path helper_file(const std::string& file, const std::string& what_for) {
+  std::error_code ec;
+  const fs::path named = named_folder();
+  if (!named.empty() && fs::exists(named / file, ec)) return named / file;
+  const fs::path own = in_own_folders(file);
+  if (own.empty()) refuse_missing(file, what_for);
+  return own;
 }
 
 namespace {
@@ -101,7 +130,7 @@ void check_threads(const fs::path& path, const std::string& what_for) {
 }  // namespace
 
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room) {
-  const fs::path path = module_file("lib" + name + ".so", what_for);
+  const fs::path path = find("lib" + name + ".so", what_for);
   if (room > 0) {
     check_room(path, what_for, room);
     check_threads(path, what_for);

@@ -28,8 +28,10 @@ const ModuleHead* open_module(const std::string& name, const std::string& what_f
 /// The version that both sides must have: ModuleHead.
 extern const char* const kModuleVersion;
 
-/// Where a file beside the modules is, by the same rules as a module. Throws Error as open_module().
-std::filesystem::path module_file(const std::string& file, const std::string& what_for);
+/// The program `file`, which stands beside the modules: in $KAGE_MODULE_DIR if it is there, else in the folders of
+/// open_module(). A scene of plain formats takes no module, so a folder of modules may lack it. Throws Error as
+/// open_module().
+std::filesystem::path helper_file(const std::string& file, const std::string& what_for);
 
 /// The table of a module, opened once.
 template <typename Table>

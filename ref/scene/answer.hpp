@@ -21,6 +21,9 @@ inline constexpr std::uint8_t kError = 'E';
 inline constexpr std::uint8_t kNoMemory = 'M';
 inline constexpr std::uint8_t kDone = '.';
 
+/// The exit code of an importer that is of another kage than who asks.
+inline constexpr int kOtherVersion = 4;
+
 /// Does `work` within the limits, writes what it returns, or why it could not, and ends the process. `parent` is who
 /// asked: with it the process dies. What `work` throws that is no Error is told behind `name`.
 [[noreturn]] void answer(int parent, const std::string& name, const ImportLimits& limits,

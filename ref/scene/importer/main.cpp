@@ -11,10 +11,11 @@
 #include "scene/wire.hpp"
 
 int main(int argc, char** argv) {
-  if (argc != 8 || std::string_view(argv[1]) != kage::kModuleVersion) {
-    std::fputs("kage-import reads files of scenes for programs with the very same kage\n", stderr);
+  if (argc != 8) {
+    std::fputs("kage-import reads files of scenes for other programs of kage\n", stderr);
     return 2;
   }
+  if (std::string_view(argv[1]) != kage::kModuleVersion) return kage::scene::kOtherVersion;
   const kage::scene::ImportLimits limits{std::atoi(argv[3]), std::atoll(argv[4])};
   const std::string name = argv[6];
   kage::scene::answer(std::atoi(argv[2]), name, limits, [&] {

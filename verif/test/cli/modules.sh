@@ -27,6 +27,10 @@ expect 0 "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
 expect 0 "$kage" render "$cube" --size 64x48 --frames 1 --out out
 
 # Damaged, and of another build.
+printf '#!/bin/sh\nexit 4\n' >empty/kage-import
+chmod +x empty/kage-import
+trouble "courtyard.gltf: $empty/kage-import: is not of kage" without "$kage" render courtyard --size 64x48 --frames 1 --out out
+rm empty/kage-import
 echo junk >empty/libkage_pictures.so
 trouble "$empty/libkage_pictures.so: file too short, and pictures are read" without "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
 version=$("$kage" --version)

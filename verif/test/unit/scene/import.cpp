@@ -76,7 +76,7 @@ TEST_CASE("a process that cannot be started, and one that is no importer, are to
   CHECK_THROWS_WITH(scene::answer_of({"/bin/true"}, "x", {}),
                     "x: the import process ended with code 0 and gave no scene");
   // Whoever starts kage-import by hand is told what it is, on standard error, with exit code 2.
-  CHECK_THROWS_WITH(scene::answer_of({module_file(scene::kImporter, "").string()}, "x", {}),
+  CHECK_THROWS_WITH(scene::answer_of({helper_file(scene::kImporter, "").string()}, "x", {}),
                     "x: the import process ended with code 2 and gave no scene");
 }
 
