@@ -60,7 +60,7 @@ int run(const ModelCommand& o) {
     j.push_back({{"name", named.name},
                  {"library", model.library.string()},
                  {"build_seconds", model.build_seconds},
-                 {"config", to_json(named.config)}});
+                 {"config", report::to_json(named.config)}});
   }
   write_json(o.json, {"kage.model/1", j});
   return kSame;

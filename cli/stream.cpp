@@ -70,7 +70,7 @@ int run(const Options& o) {
   progress.clear();
   Json origin;
   origin["scene"] = source.name();
-  origin["polyhedra"] = to_json(source.ways());
+  origin["polyhedra"] = report::to_json(source.ways());
   if (!origin["polyhedra"].is_null()) writer.origin(json_text(origin));
   TempFiles files;
   kage::finish(writer, files);
@@ -83,7 +83,7 @@ int run(const Options& o) {
   j["words"] = counts.words;
   j["level"] = cosim::name_of(source.level());
   j["polygons"] = o.level == Level::polygons ? source.polygons().json() : Json(nullptr);
-  j["config"] = to_json(config);
+  j["config"] = report::to_json(config);
   j["degraded"] = source.degraded();
   j["notes"] = source.notes();
   const Document document("kage.stream/1", j);

@@ -239,7 +239,7 @@ int write_module_pack(PackFrames& from, const VectorsCommand& o) {
   j["scene"] = from.source().name();
   j["frames"] = from.size();
   j["clocks"] = record.clocks();
-  j["config"] = to_json(named.config);
+  j["config"] = report::to_json(named.config);
   finish(o.json, {"kage.vectors-module/1", j}, files,
          fmt::format("{}{}: {} at the ports of {}, of {}\nrun it: {}\n", notes_text(from.source()), o.out,
                      counted(record.clocks(), "clock"), o.module,
@@ -276,7 +276,7 @@ Json summary(const vectors::Pack& pack, const std::string& folder, const std::op
   j["registers"] = pack.reads.size();
   j["lines_of_rtl"] = lines_json(cover);
   j["files"] = files_json(pack.files);
-  j["config"] = to_json(pack.config);
+  j["config"] = report::to_json(pack.config);
   return j;
 }
 
