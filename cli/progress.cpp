@@ -12,6 +12,7 @@
 #include "standard_files.hpp"
 
 namespace kage::cli {
+
 Progress::Progress() {
   const char* term = std::getenv("TERM");
   terminal_ = isatty(STDERR_FILENO) != 0 && term != nullptr && std::string_view(term) != "dumb";

@@ -60,12 +60,6 @@ fs::path beside_data() {
   return (data_directory() / installed.lexically_relative(data)).lexically_normal();
 }
 
-}  // namespace
-
-const char* const kModuleVersion = KAGE_MODULE_VERSION;
-
-namespace {
-
 /// The first of kage's own folders that has the file; empty if none has.
 fs::path in_own_folders(const std::string& file) {
   for (const fs::path& folder : {fs::path(KAGE_BUILD_MODULE_DIR), fs::path(KAGE_INSTALL_MODULE_DIR), beside_data()})
@@ -89,19 +83,6 @@ fs::path find(const std::string& file, const std::string& what_for) {
   if (own.empty()) refuse_missing(file, what_for);
   return own;
 }
-
-}  // namespace
-
-fs::path helper_file(const std::string& file, const std::string& what_for) {
-  std::error_code ec;
-  const fs::path named = named_folder();
-  if (!named.empty() && fs::exists(named / file, ec)) return named / file;
-  const fs::path own = in_own_folders(file);
-  if (own.empty()) refuse_missing(file, what_for);
-  return own;
-}
-
-namespace {
 
 void check_room(const fs::path& path, const std::string& what_for, std::size_t room) {
   void* const free = mmap(nullptr, room, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -128,6 +109,17 @@ void check_threads(const fs::path& path, const std::string& what_for) {
 }
 
 }  // namespace
+
+const char* const kModuleVersion = KAGE_MODULE_VERSION;
+
+fs::path helper_file(const std::string& file, const std::string& what_for) {
+  std::error_code ec;
+  const fs::path named = named_folder();
+  if (!named.empty() && fs::exists(named / file, ec)) return named / file;
+  const fs::path own = in_own_folders(file);
+  if (own.empty()) refuse_missing(file, what_for);
+  return own;
+}
 
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room) {
   const fs::path path = find("lib" + name + ".so", what_for);

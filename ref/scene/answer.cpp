@@ -37,7 +37,6 @@ namespace {
 void fall_silent() {
 #ifdef KAGE_ADDRESS_SANITIZER
   __sanitizer_set_report_fd(reinterpret_cast<void*>(static_cast<std::intptr_t>(dup(STDERR_FILENO))));
-#else
 #endif
   const int null = open("/dev/null", O_RDWR);
   if (null < 0) return;

@@ -123,6 +123,7 @@ void check(const Place& place, const Camera& c) {
   const bool numbers = is_finite(c.eye) && is_finite(c.forward) && is_finite(c.up) && std::isfinite(c.near) &&
                        std::isfinite(c.far) && std::isfinite(c.aspect) && std::isfinite(c.half_height);
   place.expect(numbers, "a number is not finite");
+  place.expect(length(cross(c.forward, c.up)) > 0, "the camera has no direction");
   place.expect(c.half_height > 0, "half_height is not above 0");
   place.expect(c.near > 0, "near is not above 0");
   place.expect(c.far == 0 || c.far > c.near, "far is not beyond near");

@@ -14,6 +14,7 @@
 #include "number/counted.hpp"
 
 namespace kage::cosim {
+
 Regress::Regress(const RegressOptions& o, Host& host, Cores& cores)
     : o_(o), host_(host), cores_(cores), start_(Clock::now()), progress_(host.progress()) {
   if (o_.configs.empty()) configs_ = named_configs();

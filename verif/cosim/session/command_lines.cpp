@@ -41,7 +41,8 @@ void pictures(Line& line, const SourceOptions& o) {
   line.option("--config", o.config, usual.config);
   line.flag("--degrade", o.degrade);
   line.flag("--units-only", o.units_only);
-  if (o.size_given) line.option("--size", fmt::format("{}x{}", o.size.width, o.size.height), std::string());
+  if (o.size_given || o.size.width != usual.size.width || o.size.height != usual.size.height)
+    line.option("--size", fmt::format("{}x{}", o.size.width, o.size.height), std::string());
   line.option("--frames", o.frames, usual.frames);
   line.option("--order", name_of(o.order), name_of(usual.order));
   line.option("--alpha", o.alpha, usual.alpha);
@@ -55,7 +56,8 @@ void pictures(Line& line, const SourceOptions& o) {
 
 void front_end(Line& line, const SourceOptions& o) {
   line.flag("--allow-outside", o.allow_outside);
-  if (!o.level_option.empty()) line.option("--front-end", front_end_of(o.level), std::string());
+  if (!o.level_option.empty() || o.level != SourceOptions().level)
+    line.option("--front-end", front_end_of(o.level), std::string());
 }
 
 void stalls(Line& line, const RtlRun& rtl) {
@@ -68,7 +70,8 @@ void defects(Line& line, const RtlRun& rtl) {
   line.option("--mutant", rtl.mutant, 0);
 }
 
-/// The line of kage cosim, with what of it `kept` of a frame leaves out, or without.
+/// The line of kage cosim: whole, or without the options that say which frames are run, by how many jobs, and where
+/// files go (CommandLines::in_place).
 std::string cosim_line(const CosimOptions& o, bool whole) {
   Line line;
   if (o.inputs.empty()) line.flag(quoted(o.input), true);

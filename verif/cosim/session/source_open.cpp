@@ -75,6 +75,8 @@ DrawOptions draw_options(const SourceOptions& options) {
 }
 
 Source::Source(const SourceOptions& options, Host& host) : host_(host), options_(options) {
+  keep_input(options.input);
+  keep_input(options.config);
   if (const auto manner = verif::random_manner(options.input)) {
     open_random(options, *manner);
     return;

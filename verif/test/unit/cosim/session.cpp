@@ -293,6 +293,9 @@ TEST_CASE("command lines say what the options say") {
   CosimOptions o;
   o.input = "my scene.obj";
   CHECK(command_lines(o).again == "kage cosim 'my scene.obj' --seed 1");
+  o.size = {32, 24};  // as a program sets it
+  o.level = Level::polygons;
+  CHECK(command_lines(o).again == "kage cosim 'my scene.obj' --size 32x24 --seed 1 --front-end rtl");
   o.config = "full";
   o.size = {160, 120};
   o.size_given = true;

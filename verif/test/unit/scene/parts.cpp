@@ -195,7 +195,11 @@ TEST_CASE("what is no scene is refused by name and place") {
   CHECK(said([](SceneParts& p) { p.materials[2].alpha = 0; }) == "three: material 2: alpha is not in 0 .. 1, or is 0");
   CHECK(said([](SceneParts& p) {
           p.cameras[0].forward = {0, 0, 0};
-        }).find("the camera has no direction") != std::string::npos);
+        }) == "three: camera 0: the camera has no direction");
+  CHECK(said([](SceneParts& p) {
+          p.cameras.resize(2, p.cameras[0]);
+          p.cameras[1].up = p.cameras[1].forward;
+        }) == "three: camera 1: the camera has no direction");
   CHECK(said([](SceneParts& p) { p.cameras[0].eye.x = kNan; }) == "three: camera 0: a number is not finite");
   CHECK(said([](SceneParts& p) { p.lights[0][0].color.y = -1; }) ==
         "three: lights of frame 0: light 0: color is below 0");
