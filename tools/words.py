@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sentences of Markdown that a tired reader has to read twice: longer than 35 words, or opened by a word that stands for a
-noun which never comes ("What it gives is ...", "Of these the first ...", "That which ...").
+"""Sentences that a tired reader has to read twice: longer than 35 words, or opened by a word that stands for a noun which
+never comes ("What it gives is ...", "Of these the first ...", "That which ...").
 
 usage: words.py FILE...      A line for each: FILE:LINE: why: the sentence. Exit code 1: there is one.
+
+Markdown is read whole but for its code blocks. Of C++, C, SystemVerilog, Python, shell, CMake and YAML files the comments are
+read, docstrings among them, and of C++ files in cli/ the texts too, which are what a person reads on the screen.
 """
 
+import io
 import pathlib
 import re
 import sys
+import tokenize
 
 MOST = 35
 # "That file" has its noun; "That of", "That is" and "That a file ..." have none.
@@ -17,6 +22,8 @@ NO_NOUN = re.compile(
 )
 END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(*_`\[]*[A-Z0-9`])")
 ENTRY = re.compile(END.pattern + r"|;\s+")
+# A list's entry, a name with its meaning in the next column, or a field for Doxygen: it begins a paragraph of its own.
+BULLET = re.compile(r"([*+-]|\d+[.)]|@\w+(\[\w+\])?( \w+)?)\s+|[^\s,]+(, [^\s,]+){0,5},?\s{2,}")
 
 
 def plain(text):
@@ -27,7 +34,7 @@ def plain(text):
     return re.sub(r"[*_]{1,2}(?=\S)|(?<=\S)[*_]{1,2}", "", text)
 
 
-def paragraphs(lines):
+def markdown(lines):
     """(first line's number, text, whether it is a cell) of each paragraph, list entry, table cell and caption outside of code blocks."""
     code = False
     begin, words = 0, []
@@ -62,8 +69,109 @@ def paragraphs(lines):
     yield from closed()
 
 
+def blocks(lines, comments):
+    """The paragraphs of (line, column, text) of comments: lines that follow one another in one column. An empty line parts them, an
+    entry of a list or one beside code begins one, and a line that is set further in stands alone, as tables and code do."""
+    begin, at, words, last = 0, None, [], -1
+    for line, column, text in comments:
+        set_in = text.startswith("   ")
+        entry = BULLET.match(text.strip())
+        beside = lines[line - 1][:column].strip()
+        if words and (line != last + 1 or column != at or not text.strip() or entry or set_in or beside):
+            yield begin, " ".join(words), False
+            words = []
+        last, at = line, column
+        text = text.strip()
+        if not text or re.match(r"SPDX-|NOLINT|clang-format|shellcheck|verilator |verible|noqa|ruff:", text):
+            continue
+        if not words:
+            begin = line
+        words.append(BULLET.sub("", text, count=1) if entry else text)
+        if set_in:
+            yield begin, " ".join(words), True
+            words = []
+    if words:
+        yield begin, " ".join(words), False
+
+
+def place(text, offset):
+    """(line, column) of an offset."""
+    return text.count("\n", 0, offset) + 1, offset - text.rfind("\n", 0, offset) - 1
+
+
+C_TOKEN = re.compile(
+    r'//[^\n]*|/\*.*?\*/|R"(?P<d>[^(\s]*)\(.*?\)(?P=d)"|"(?:\\.|[^"\\\n])*"|\'(?:\\.|[^\'\\\n])\'', re.DOTALL
+)
+
+
+def c_comments(text):
+    for token in C_TOKEN.finditer(text):
+        line, column = place(text, token.start())
+        if token[0].startswith("//"):
+            yield line, column, re.sub(r"^///?<? ?", "", token[0])
+        elif token[0].startswith("/*"):
+            for more, part in enumerate(token[0][2:-2].lstrip("*").split("\n")):
+                yield line + more, column, re.sub(r"^\s*\* ?", "", part)
+
+
+def c_texts(text):
+    """Literals of C++, those that stand one after another as one; an end of a line in them ends a paragraph."""
+    begin, words, end = 0, "", 0
+    for token in C_TOKEN.finditer(text):
+        if token[0][0] not in '"R':
+            continue
+        piece = re.sub(r'^R"[^(]*\(|\)[^()]*"$', "", token[0]) if token[0][0] == "R" else token[0][1:-1]
+        if words and text[end : token.start()].strip():
+            yield begin, words
+            words = ""
+        if not words:
+            begin = place(text, token.start())[0]
+        words += piece.replace("\\n", "\n").replace('\\"', '"')
+        end = token.end()
+    if words:
+        yield begin, words
+
+
+def hash_comments(text):
+    for number, line in enumerate(text.splitlines(), 1):
+        if (found := re.match(r"(\s*)#(?!!)( ?)(.*)|.*?\s(#)( )([^\"'{}]*)$", line)) is None:
+            continue
+        if found[3] is not None:
+            yield number, len(found[1]), found[3]
+        else:
+            yield number, found.start(4), found[6]
+
+
+def python_comments(text):
+    before = tokenize.NEWLINE
+    for token in tokenize.generate_tokens(io.StringIO(text).readline):
+        if token.type == tokenize.COMMENT:
+            yield *token.start, re.sub(r"^#!?\s?", "", token.string)
+        elif token.type == tokenize.STRING and before in (tokenize.NEWLINE, tokenize.INDENT, tokenize.NL):
+            indent = token.start[1]
+            for more, part in enumerate(re.sub(r'^[rb]*("""|"|\')|("""|"|\')$', "", token.string).split("\n")):
+                yield token.start[0] + more, indent, part[indent:] if more else part
+        if token.type not in (tokenize.COMMENT, tokenize.NL):
+            before = token.type
+
+
+def paragraphs(path):
+    """(line, text, whether semicolons part it) of all that a person reads in a file."""
+    text = path.read_text()
+    if path.suffix == ".md":
+        yield from markdown(text.splitlines())
+    elif path.suffix in (".cpp", ".hpp", ".c", ".h", ".sv", ".svh", ".v"):
+        yield from blocks(text.splitlines(), c_comments(text))
+        if path.parts[0] == "cli":
+            yield from ((line, part, True) for line, whole in c_texts(text) for part in whole.split("\n"))
+    elif path.suffix == ".py":
+        yield from blocks(text.splitlines(), python_comments(text))
+    else:
+        yield from blocks(text.splitlines(), hash_comments(text))
+
+
 def faults(path):
-    for number, text, cell in paragraphs(path.read_text().splitlines()):
+    for number, text, cell in paragraphs(path):
         # A cell of a table may be a list, whose entries semicolons part.
         for sentence in (END if not cell else ENTRY).split(plain(text)):
             words = [w for w in sentence.split() if re.search(r"\w", w)]
