@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The rooms of the source tree, which of them may include which (docs/architecture.md, "Layers"), and the files that an include
+names. contract/layers holds every include to it; tools/selection.py finds by it the tests that a change concerns."""
+
+import posixpath
+import re
+
+# Folders of the golden model, each with those right below it; it may include theirs and all below them.
+BELOW = {
+    "number": [],
+    "simd": [],
+    "arena": [],
+    "file": [],
+    "module": ["file"],
+    "json": ["file"],
+    "hls": [],
+    "contract": ["file", "number"],
+    "polygon": ["contract", "hls"],
+    "stream": ["polygon"],
+    "core": ["stream", "simd"],
+    "bind": ["core"],
+    "cost": ["stream"],
+    "order": ["file", "arena", "simd"],
+    "scene": ["file", "json", "module", "number"],
+    "shadow": ["scene", "order", "number"],
+    "geometry": ["shadow", "contract"],
+    "frontend": ["geometry", "arena", "polygon"],
+    "image": ["file", "module", "number"],
+    "pipeline": ["frontend", "stream", "core", "cost", "image"],
+    "plan": ["pipeline", "cost"],
+}
+MODEL = [*BELOW, "kage"]
+
+# The public headers (ref/include/kage) whose functions each folder has.
+PUBLIC = {
+    "contract": ["config.hpp", "token.hpp"],
+    "stream": ["stream.hpp", "stream_diff.hpp"],
+    "core": ["core.hpp", "explain.hpp"],
+    "bind": ["golden.h", "golden_numbers.h"],
+    "order": ["order.hpp"],
+    "scene": ["scene.hpp"],
+    "shadow": ["shadow.hpp"],
+    "geometry": ["geometry.hpp", "light.hpp"],
+    "frontend": ["frontend.hpp"],
+    "file": ["paths.hpp"],
+    "image": ["image.hpp", "diff.hpp"],
+    "pipeline": ["bless.hpp", "pipeline.hpp", "provenance.hpp"],
+    "plan": ["plan.hpp"],
+}
+OWNERS = {name: folder for folder, names in PUBLIC.items() for name in names}
+GROUND = {"defs.hpp", "error.hpp", "registers.h"}  # they have no functions elsewhere and stand below all folders
+
+# Folders beside the golden model, each with all that it may include. The longest path counts.
+ABOVE = {
+    "verif/stimulus": ["stimulus", *MODEL],
+    "verif/cosim": ["cosim", *MODEL],
+    "verif/cosim/report": ["report", "cosim", *MODEL],
+    "verif/cosim/session": ["session", "report", "cosim", "stimulus", *MODEL],
+    "verif/cosim/regress": ["regress", "session", "report", "cosim", "stimulus", *MODEL],
+    "verif/oracle": ["oracle", "kage", "number"],
+    "verif/vectors": ["vectors", "report", "cosim", "stimulus", *MODEL],
+    "verif/board": ["board", "vectors", "session", "report", "cosim", *MODEL],
+    "verif/explore": ["explore", "oracle", "session", "report", "cosim", "stimulus", *MODEL],
+    "verif/mutants": ["mutants", "cosim", "stimulus", *MODEL],
+    "verif/extremes": ["extremes", "cosim", "stimulus", "oracle", *MODEL],
+    "verif/fuzz": ["fuzz", "explore", "vectors", "report", "cosim", "stimulus", *MODEL],
+    "verif/bench": ["bench", "report", "cosim", "stimulus", "oracle", *MODEL],
+    "verif/test": [
+        "test",
+        "extremes",
+        "explore",
+        "board",
+        "vectors",
+        "regress",
+        "session",
+        "report",
+        "cosim",
+        "stimulus",
+        "oracle",
+        *MODEL,
+    ],
+    "cli": ["cli", "explore", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", *MODEL],
+}
+
+ROOTS = (
+    "ref",
+    "ref/include",
+    "verif",
+    "verif/cosim/include",
+    "",
+)  # folders that an include may be named from, besides the file's own
+
+
+def at_or_below(folder):
+    return {folder}.union(*(at_or_below(f) for f in BELOW.get(folder, [])))
+
+
+def place(path):
+    """The folder a file belongs to, by its path in the source, and its name there if it is a public header."""
+    parts = path.split("/")
+    if parts[:3] == ["ref", "include", "kage"]:
+        return "kage", "/".join(parts[3:])
+    if parts[0] == "cli":
+        return "cli", None
+    return parts[2] if "/".join(parts[:3]) in ABOVE and parts[:2] != ["verif", "test"] else parts[1], None
+
+
+def may(path, target):
+    """Whether the file of one path may include that of the other."""
+    folder, public = place(target)
+    if not path.startswith("ref/"):
+        rooms = [room for room in ABOVE if path.startswith(room + "/")]
+        return bool(rooms) and folder in ABOVE[max(rooms, key=len)]
+    own, own_public = place(path)
+    below = at_or_below(OWNERS.get(own_public, "") if own_public else own)
+    if public is not None:
+        return public in GROUND or OWNERS.get(public) in below
+    return own_public is None and folder in below
+
+
+def targets(path, name, files):
+    """The files of the source that an include can mean: of the including file's folder, of a root, else of any folder,
+    which a compiler's -I may name. None for what is the system's or made by the build."""
+    for folder in (posixpath.dirname(path), *ROOTS):
+        target = posixpath.normpath(posixpath.join(folder, name))
+        if target in files:
+            return [target]
+    return [f for f in files if f.endswith("/" + name)]
+
+
+def includes(text):
+    """The names that a C++ file's text includes."""
+    return re.findall(r'^\s*#\s*include\s*["<]([^">]+)[">]', text, re.M)
