@@ -20,9 +20,9 @@ struct TmdsSymbol {
   bool valid = false;      ///< an encoder may send it
 };
 
-/// By the standard's decoder. A word is valid if it is one of the four control words, or if it keeps two rules. Its bits
-/// 0-7 change at most three times, because the encoder takes the better of two chains. And if four of these eight bits
-/// are ones, bits 8 and 9 differ.
+/// By the standard's decoder. A word is valid if it is one of the four control words, or if it keeps two rules. Its
+/// bits 0-7 change at most three times, because the encoder takes the better of two chains. And if four of these eight
+/// bits are ones, bits 8 and 9 differ.
 TmdsSymbol tmds_decode(unsigned word);
 
 class DviReceiver {
