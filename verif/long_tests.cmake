@@ -99,7 +99,7 @@ set(long_tests
     tools/lint-verilator
     unit/cosim/stages)
 
-# What long tests alone need: programs, models, and all that no test runs but must compile.
+# Target of all that long tests alone need: programs, models, and files that no test runs but that must compile.
 add_custom_target(long_tests)
 
 # kage_long_program(TARGET): one that `tools/test` does not build.

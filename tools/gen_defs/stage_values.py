@@ -76,7 +76,7 @@ def stage_info(stages):
         "  ValueText as = ValueText::number;",
         "};",
         "",
-        "/// What an event of a stage is in words, and its values.",
+        "/// A stage's event in words, and its values.",
         "struct StageInfo {",
         "  std::string_view text;",
         "  std::array<ValueInfo, KAGE_RTL_EVENT_VALUES> values;",
@@ -140,7 +140,7 @@ def handshakes(d):
         "  explicit constexpr Handshakes(std::uint32_t bits = 0) : bits_(bits) {}",
         "  [[nodiscard]] constexpr bool ready(Port p) const { return bit(2 * static_cast<unsigned>(p)); }",
         "  [[nodiscard]] constexpr bool valid(Port p) const { return bit(2 * static_cast<unsigned>(p) + 1); }",
-        "  /// What is offered there is not taken.",
+        "  /// Whether an item is offered there and not taken.",
         "  [[nodiscard]] constexpr bool waits(Port p) const { return valid(p) && !ready(p); }",
         *(
             f"  [[nodiscard]] constexpr bool {flag}() const {{ return bit({bit}); }}"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a co-simulation of courtyard costs: part by part, on one thread, golden model against RTL side by side; then
-// with several jobs.
+// Cost of a co-simulation of courtyard: first each part, on one thread, golden model and RTL side by side; then the
+// whole with several jobs.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -30,8 +30,8 @@ double processor_seconds() {
   return static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec) * 1e-9;
 }
 
-/// What the comparison adds to running both cores, and the monitors to the RTL. Runs take turns, so that all suffer
-/// alike from what else the machine does.
+/// Cost of the comparison on top of both cores, and of the monitors on top of the RTL. Runs take turns, so that other
+/// load of the machine affects all alike.
 void compare_cost(const std::shared_ptr<const Scene>& scene, const Config& config,
                   const std::filesystem::path& library) {
   SceneFrames source(scene, config, {.width = 640, .height = 480, .threads = 1});
@@ -75,9 +75,10 @@ void compare_cost(const std::shared_ptr<const Scene>& scene, const Config& confi
       both * 1e3, compared * 1e3, (compared / both - 1) * 100, watched * 1e3);
 }
 
-/// kage cosim with 1, 2, 4 and 8 jobs, as a program. What limits it: the processors, of which one job keeps a little
-/// more than one busy, and the frame before each range but the first, which is run again so that the range finds the
-/// core as one job would. What the processors allow is what as many programs of one job each reach beside each other.
+/// kage cosim with 1, 2, 4 and 8 jobs, as a program. Two things limit the speed-up. First the processors: one job alone
+/// keeps a little more than one busy. Second the frame before each range but the first: it is run again, so that the
+/// range finds the core as one job would. The processors' own limit is measured by as many programs of one job each,
+/// run beside each other.
 void jobs_cost() {
   namespace fs = std::filesystem;
   constexpr int kFrames = 96;

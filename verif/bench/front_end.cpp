@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the front end in hardware takes beside the core behind it, by design (docs/rtl.md, "The front end"): clocks of
-// the first frame of all built-in scenes at 640x480, ACTIVE 512, of front_end and of banked cores of 1, 4 and 8 lanes,
-// and of the port at both levels. `front_end SCENE...` prints those.
+// Clocks of the front end in hardware beside the core behind it, by design (docs/rtl.md, "The front end"). For the
+// first frame of all built-in scenes at 640x480, ACTIVE 512: clocks of front_end, of banked cores of 1, 4 and 8 lanes,
+// and of the port at both levels. `front_end SCENE...` prints them for these scenes.
 #include "polygon/front_end.hpp"
 
 #include <fmt/format.h>
@@ -19,8 +19,9 @@ namespace {
 
 using namespace kage;
 
-// Of a line in front_end, held by rtl/front_end: clocks until the first polygon that crosses it from the line above is
-// there, and the fewest clocks of a line that is crossed by one, and by none.
+// Clocks of a line in front_end, which the test rtl/front_end checks. kFirst: until the first polygon that crosses the
+// line from the line above is there. The others: fewest clocks of a line that a polygon crosses, and of one that none
+// crosses.
 constexpr std::uint64_t kFirst = 3, kLeastCrossed = 6, kLeastLine = 3;
 
 struct FrontEndClocks {

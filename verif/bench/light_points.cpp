@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// How near the points of an area light come to the light: edges of all directions and places against the exact share,
-// other ways to choose points beside kage's, and what is left to gain; what near receivers see of a ball; and pictures:
-// steps, samples against seeds of each caster's own, by FLIP. docs/lights.md, "Samples".
+// How well the sample points of an area light stand for the light. Edges of all directions and places are held against
+// the exact share, for kage's points and other choices of points, with what is left to gain. Then a ball seen by near
+// receivers. Then pictures: their steps, and one pattern of samples against a pattern with its own seed for each
+// caster, by FLIP. docs/lights.md, "Samples".
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -207,9 +208,9 @@ void ball_constants() {
       others[kTriples / 2] / own);
 }
 
-// A ball of radius 1 of even radiance from distance d: of the cone that it fills, the share beyond an edge, by what
-// arrives on a surface that faces it; beside share_of_disc(), which samples come to from every distance, because an
-// edge and the receiver make a plane.
+// The light of a ball of radius 1 and even radiance, as it arrives on a surface that faces the ball from distance d:
+// the share beyond an edge. It is held against share_of_disc(), the limit of the samples from every distance, because
+// an edge and the receiver make a plane.
 void near_receivers() {
   for (const double d : {1.1, 1.5, 2.0, 4.0, 10.0}) {
     const double cone = std::asin(1 / d);
@@ -321,7 +322,7 @@ SceneFrame boxes_before_a_disc(bool closed) {
   return f;
 }
 
-// Of each pixel the share of the light that is kept out, the points of component k chosen by seed_of(k).
+// Share of the light that is kept out at each pixel, with the points of component k chosen by seed_of(k).
 std::vector<double> kept_out(const SceneFrame& f, int samples,
                              const std::function<std::uint64_t(std::uint32_t)>& seed_of) {
   const Config c = config_for_lights(f, 255);

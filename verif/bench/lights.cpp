@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a table of several lights loses against an intensity per light, by the number of normals it tells apart; and
-// what samples of a light cost. 320x240, the scene's own frames; errors in LSB of a channel, over pixels in some
-// shadow.
+// Loss of a table of several lights against an intensity per light, by the number of normals that the table tells
+// apart; and the cost of a light's samples. 320x240, the scene's own frames; errors in LSB of a channel, over pixels in
+// some shadow.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -65,7 +65,7 @@ Hit hit(const SceneFrame& f, const Polygon& face, int x, int y) {
   return {point, side * glm::normalize(normal), side * glm::normalize(mean)};
 }
 
-/// What the picture of frame `f` is off by, were each light's intensity kept for every pixel.
+/// Adds to `e` the error of the picture of frame `f` against one that keeps each light's intensity for every pixel.
 void measure(const SceneFrame& f, const Config& config, const Look& look, Errors& e) {
   const FrameGeometry g = make_geometry(f, config, kWidth, kHeight, {.look = look});
   const auto picture = draw(g, config);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame takes at the polygon level beside the span level, how many of its spans the front end makes, and why not
-// the others: the first frame of all built-in scenes and of four meshes at 640x480, ACTIVE as usual.
-// `bench_polygon_level SCENE...` prints those. The table is docs/stream.md's.
+// Cost of a frame at the polygon level beside the span level; how many of its spans the front end makes, and why it
+// does not make the others. The first frame of all built-in scenes and of four meshes at 640x480, ACTIVE as usual.
+// `bench_polygon_level SCENE...` prints them for these scenes. The table is docs/stream.md's.
 #include <fmt/format.h>
 
 #include <array>

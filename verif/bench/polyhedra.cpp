@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What scan conversion of polyhedra to segments costs, by faces; against the 1/20 s that a 10-face polyhedron took in
-// [Ohno 1985], and against the clocks that a line has.
+// Cost of scan conversion of polyhedra to segments, by the number of faces. It is held against the 1/20 s that a
+// 10-face polyhedron took in [Ohno 1985], and against the clocks of a line.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a program costs as a whole.
+// Time and memory of a whole program.
 #pragma once
 
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the report page of a run costs beyond the run itself: time to pack the tokens while the frames are made, and to
-// write the page. 640x480, the first eight frames of each scene; the golden model stands in for the RTL, whose time is
-// no part of it.
+// Cost of the report page beyond the run itself: time to pack the tokens while the frames are made, and to write the
+// page. 640x480, the first eight frames of each scene. The golden model stands in for the RTL, whose time is no part of
+// the cost.
 #include <fmt/format.h>
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What shadow volumes cost by the way they are made: a volume per face, patches, and counting with 2, 3, 4 and 8 bits.
-// Meshes stand on a floor; the sun is high (steep) or low (flat); 640x480, views round the mesh, all sums a frame.
+// Cost of shadow volumes by the way they are made: a volume per face, patches, and counting with 2, 3, 4 and 8 bits.
+// Meshes stand on a floor; the sun is high (steep) or low (flat); 640x480, views round the mesh, all sums per frame.
 #include <fmt/format.h>
 
 #include <algorithm>

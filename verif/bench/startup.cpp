@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a command costs before its work: processor time and memory of small commands, each run as a program of its own.
+// Cost of a command before its work: processor time and memory of small commands, each run as a program of its own.
 #include <unistd.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the exact order of translucent faces costs, and what the orders that others use get wrong: 640x480, the scene's
-// own frames. Wrong are pixels unlike those of the exact order.
+// Cost of the exact order of translucent faces, and errors of the orders that others use: 640x480, the scene's own
+// frames. A pixel is wrong if it differs from that of the exact order.
 #include <fmt/format.h>
 
 #include <filesystem>

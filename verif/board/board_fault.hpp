@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a broken link means to who stands before the board, and what is to be done: one line each.
+// Meaning of a broken link for the person before the board, and the remedy: one line each.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@
 
 namespace kage::board {
 
-/// What a port of a board in simulation begins with: "sim:ulx3s".
+/// Prefix of the port of a board in simulation: "sim:ulx3s".
 inline constexpr std::string_view kSimulated = "sim:";
 /// The rate of a board's line unless another is named.
 inline constexpr int kDefaultBaud = 3'000'000;

@@ -10,7 +10,7 @@ namespace kage::board {
 namespace {
 
 constexpr int kWordsToAlign = 12;
-// Of control bits 0, 1, 2 and 3, as words whose bit 0 comes first.
+// Words of the control values 0, 1, 2 and 3, whose bit 0 comes first.
 constexpr std::array<unsigned, 4> kControl{0x354, 0x0AB, 0x154, 0x2AB};
 // Five ones and five zeros, in any of their rotations: the standard gives the clock no phase.
 bool is_clock(unsigned word) {

@@ -13,16 +13,16 @@
 
 namespace kage::board {
 
-/// What ten bits of a channel mean, bit 0 the one that came first.
+/// Meaning of ten bits of a channel, of which bit 0 came first.
 struct TmdsSymbol {
   bool control = false;    ///< a word of control, or one of colour
   std::uint8_t value = 0;  ///< two bits of control, or eight of colour
   bool valid = false;      ///< an encoder may send it
 };
 
-/// By the standard's decoder. A word is valid if it is one of the four of control, or if its bits 0-7 change at most
-/// three times (which of two chains is taken sees to that) and, where four of these eight are ones, bits 8 and 9
-/// differ.
+/// By the standard's decoder. A word is valid if it is one of the four control words, or if it keeps two rules. Its
+/// bits 0-7 change at most three times, because the encoder takes the better of two chains. And if four of these eight
+/// bits are ones, bits 8 and 9 differ.
 TmdsSymbol tmds_decode(unsigned word);
 
 class DviReceiver {
@@ -32,10 +32,13 @@ class DviReceiver {
   /// them.
   std::optional<VideoPixel> put(bool blue, bool green, bool red, bool clock);
 
-  /// What was wrong first, with the channel and the bit since the start; else empty. That is: a word that no encoder
-  /// sends, a word that takes the sums of ones and zeros further apart where it should bring them together, sums that
-  /// lie more than kMaxDisparity apart, channels that are not aligned with each other or lose alignment, channels that
-  /// are not in blanking together, control bits in channels 1 and 2, a clock that is not five bits high and five low.
+  /// The first fault, with the channel and the bit since the start; else empty. Faults are:
+  /// * a word that no encoder sends
+  /// * a word that takes the sums of ones and zeros further apart where it should bring them together
+  /// * sums that lie more than kMaxDisparity apart
+  /// * channels that are not aligned with each other, lose alignment, or are not in blanking together
+  /// * control bits in channels 1 and 2
+  /// * a clock that is not five bits high and five low
   const std::string& fault() const { return fault_; }
   bool aligned() const { return phase_ >= 0; }
   /// The furthest that ones and zeros have been apart in a channel at the end of a word.

@@ -11,7 +11,8 @@ namespace {
 
 constexpr std::size_t kAckFields = 5;  // expected is the frame's sequence; limit, done, session, flags follow
 constexpr std::size_t kMostSlots = 64;
-// What is taken of the line at once, before the clock is looked at again: a board that never falls silent is no excuse.
+// Most bytes taken from the line before the clock is looked at again, so that time-outs work with a board that never
+// falls silent.
 constexpr std::size_t kMostHeard = std::size_t{1} << 16;
 
 std::uint8_t add(std::uint8_t sequence, std::size_t n) { return static_cast<std::uint8_t>((sequence + n) & 0xFF); }
@@ -51,7 +52,7 @@ void Link::hello() {
     listen(timer_);
     const std::uint64_t now = transport_.now();
     if (heard_ && done_ == base_) {
-      // What was executed meanwhile may have failed: it was of another session, and is forgotten by one more HELLO.
+      // Frames of an earlier session that were executed meanwhile may have failed. One more HELLO clears their errors.
       if ((flags_ & (kAxiError | kOverrun)) == 0) break;
       another_try("the board keeps its errors");
       again = true;
@@ -241,7 +242,7 @@ void Link::take_ack(const Frame& frame) {
   if (greeting_) return;
   // The board puts a READ's answer on the line before it is done with it.
   if (reading_ && !has_data_ && behind(read_sequence_, done) - 1U < 128) lost_data_ = true;
-  // A gap. What else was on its way is dropped as well, so it is gone back to once.
+  // A gap. The frames behind it are dropped as well, so the link goes back to it only once.
   if ((flags & kDropped) != 0 && next_ > 0 && rewound_to_ != base_) {
     rewound_to_ = base_;
     next_ = 0;

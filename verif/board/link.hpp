@@ -23,7 +23,7 @@ enum class LinkFailure {
   stalled,              ///< the board answers, and executes nothing: the stream's taker or AXI4-Lite takes nothing
 };
 
-/// What a link throws. The link does nothing more until hello() begins anew.
+/// Failure of a link. The link does nothing more until hello() begins anew.
 class LinkError : public Error {
  public:
   LinkError(LinkFailure why, const std::string& what) : Error(what), failure(why) {}
@@ -54,8 +54,8 @@ class Link {
   /// The transport stays as long as the link.
   explicit Link(Transport& transport, const LinkOptions& options = {});
 
-  /// Begins a session. What an earlier session had sent and the board had taken is executed first; its errors are
-  /// forgotten, and what this link had not sent is, too.
+  /// Begins a session. Frames that an earlier session had sent and the board had taken are executed first, and their
+  /// errors are forgotten. Frames that this link had not sent yet are forgotten, too.
   void hello();
 
   /// The session's number, 0 .. 255, made of the time at which it began. Two hosts' sessions have the same number once

@@ -11,7 +11,7 @@
 
 namespace kage::board {
 
-/// What a frame is; rtl/board/include/kage_link.svh has the same numbers.
+/// Kinds of frames; rtl/board/include/kage_link.svh has the same numbers.
 enum class FrameKind : std::uint8_t {
   poll = 0x00,        ///< asks for an ACK
   hello = 0x01,       ///< begins a session

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a pack says must come out, frame by frame, read as it is needed.
+// Expected output of a pack, frame by frame, read as it is needed.
 #pragma once
 
 #include <cstdint>

@@ -104,7 +104,7 @@ void PackPlay::loop() {
   if (!v.left) end_loop(run, v, hung, played, last);
 }
 
-/// Those of so many frames of a list that begins anew at its end.
+/// Lines of the first `frames` frames of a list that begins anew at its end.
 std::uint64_t PackPlay::lines_of(const PackRun& run, std::uint64_t frames) const {
   return frames / run.frames * run.lines + lines_before(run, run.first + frames % run.frames);
 }
@@ -124,7 +124,7 @@ void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung, std::uint
     lines = player_.state().lines;
     ended = clock_.now() - begin < options_.timeout;
   }
-  // What the core was given since the start: whole repetitions, and the frames behind them.
+  // CRC of the words that the core was given since the start: whole repetitions, and the frames behind them.
   const auto crc_of_frames = [&](std::uint64_t frames) {
     return Crc{words_crc(run, frames), 4 * (address_of(run, run.first + frames) - frames)};
   };
@@ -133,7 +133,7 @@ void PackPlay::end_loop(const PackRun& run, LoopVerdict& v, bool hung, std::uint
     blame_silent_memory(run, stopped.state, run.first + played % run.frames, given.crc);
     PlayState in_list = stopped.state;
     in_list.played = static_cast<std::uint32_t>(played % run.frames);
-    // Of the repetition at hand, as far as the counters' 16 bits say.
+    // Counts within the current repetition, as far as the counters' 16 bits tell.
     const std::uint64_t whole = v.repetitions * run.lines;
     in_list.lines =
         std::min<std::uint32_t>(static_cast<std::uint16_t>(lines - whole), static_cast<std::uint32_t>(run.lines));

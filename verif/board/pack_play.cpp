@@ -221,7 +221,7 @@ void PackPlay::play(const PackRun& run) {
       return;
     }
   }
-  // Of other words than were loaded other lines come, or fewer: so the words are looked at first.
+  // The words are looked at first: words other than those that were loaded bring other lines, or fewer.
   Waited waited = wait_for(0, run.lines, run.frames);
   const PlayState& given = waited.state;
   const bool whole = given.played == run.frames;

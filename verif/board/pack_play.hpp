@@ -25,7 +25,7 @@ class PackPlay {
 
   [[nodiscard]] PackVerdict& verdict() { return verdict_; }
   [[nodiscard]] Player& player() { return player_; }
-  /// What the board is at: "played frame 3".
+  /// Current action of the board: "played frame 3".
   [[nodiscard]] const std::string& doing() const { return doing_; }
 
  private:

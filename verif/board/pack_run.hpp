@@ -37,7 +37,7 @@ struct CapturedLine {
   std::vector<std::uint8_t> pixels;  ///< with its channels
 };
 
-/// What was played over and over.
+/// Result of a list that was played over and over.
 struct LoopVerdict {
   std::uint64_t frames = 0;       ///< of the pack, from the first on
   std::uint64_t lines = 0;        ///< that came out, in all repetitions
@@ -48,7 +48,7 @@ struct LoopVerdict {
   bool left = false;    ///< the board goes on
 };
 
-/// What is to be said of a pack on a board.
+/// Verdict on a pack that was played on a board.
 struct PackVerdict {
   Identity board;
   std::optional<cosim::Difference> first;  ///< none: all was as the pack says

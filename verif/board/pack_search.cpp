@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is found out about a line that came out wrong, and about a memory that gave other words than it got.
+// Search for the cause of a wrong line, and of a memory that gave other words than it got.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,7 +90,7 @@ void PackPlay::look_into(const PackRun& run, Place place, std::uint32_t expected
   cosim::Difference d;
   d.frame = static_cast<int>(place.frame);
   d.line = place.line;
-  // Of a repetition the board says no more than that the line was wrong.
+  // In a repetition, the board tells only that the line was wrong.
   const std::string repetition = got ? "" : "its signature was wrong in a repetition; ";
   d.field = got ? "signature" : "port";
   d.expected = got ? expected : 0;
@@ -185,8 +185,8 @@ void PackPlay::blame_memory(const PackRun& run) {
 }
 
 /// Throws where the player waits for words of the memory and the core for its input: the memory has stopped, and no
-/// core hangs. Of a core without an open frame nothing tells whether it is offered a word, so either may be to blame.
-/// `frame` is the one behind those that were given whole, and `crc_before` PLAY_CRC behind these.
+/// core hangs. If the core has no open frame, nothing tells whether it is offered a word, so either may be to blame.
+/// `frame` is the one behind those that were given whole, and `crc_before` is PLAY_CRC behind these.
 void PackPlay::blame_silent_memory(const PackRun& run, const PlayState& state, std::uint64_t frame,
                                    std::uint32_t crc_before) {
   if (!state.playing) return;

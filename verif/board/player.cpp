@@ -20,7 +20,7 @@ constexpr std::size_t kPiece = 1024;
 /// Pieces of a load between two calls of state(): 1,100 frames of the link, which counts them modulo 2^16.
 constexpr int kPiecesToCount = 64;
 
-/// What PLAYED and LINES hold at most.
+/// Greatest value of PLAYED and LINES.
 constexpr std::uint32_t kMostCounted = 0xFFFF;
 
 constexpr std::uint32_t kHold = KAGE_BOARD_CONTROL_HOLD_MASK;

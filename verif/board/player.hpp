@@ -18,7 +18,7 @@ namespace kage::board {
 /// The CRC-32 of words as zlib has it of their bytes, the lowest first; `before` is that of the words before them.
 std::uint32_t crc_of(std::span<const std::uint32_t> words, std::uint32_t before = 0);
 
-/// What a board says that it is.
+/// Identity and sizes of a board, as it tells them.
 struct Identity {
   std::string name;                 ///< four letters
   std::uint32_t memory_words = 0;   ///< of the memory that frames are played from
@@ -43,7 +43,7 @@ struct PlayState {
   std::uint32_t lines = 0;     ///< that came out
 };
 
-/// What the screen counted.
+/// Counts of the screen.
 struct ScreenCounts {
   std::uint64_t shown = 0;            ///< screens that began a frame
   std::uint64_t late = 0;             ///< screens that had none to begin, though one was shown before
@@ -56,8 +56,8 @@ struct ScreenCounts {
   }
 };
 
-/// What the board counted since the Player asked for its state first. The board counts modulo 2^16; each state() adds
-/// what has come since the one before, so state() must be called before 2^16 frames of the link or lines have passed.
+/// Counts of the board since the Player first asked for its state. The board counts modulo 2^16; each state() adds what
+/// has come since the one before, so state() must be called before 2^16 frames of the link or lines have passed.
 struct BoardCounts {
   ScreenCounts screen;
   std::uint64_t link_good = 0;      ///< right frames that came by the link
@@ -99,7 +99,7 @@ class Player {
   std::uint32_t get(std::uint32_t address);
   /// Signatures of lines, from the first on.
   std::vector<std::uint32_t> signatures(std::size_t lines);
-  /// What each line must have, for CHECK.
+  /// Sets the signature that each line must have, for CHECK.
   void expect(std::span<const std::uint32_t> signatures);
   /// Pixels of the captured line as PIXELS has them, `most` at most, and how many came.
   std::vector<std::uint32_t> captured(std::uint32_t most, std::uint32_t& came);

@@ -24,9 +24,9 @@ struct BoardRun {
   std::string kage;   ///< the version that made it, "kage 0.1.0"
 };
 
-/// The record; with an `out` that is not empty also pictures of the frames, a stream file of them, by which `kage
-/// explain` tells what the page has no room for, and report.html, among `files`. That these cannot be written leaves
-/// the verdict as it is, and a note.
+/// The record. An `out` that is not empty adds to `files`: pictures of the frames, a stream file of them, and
+/// report.html. With the stream file, `kage explain` tells what the page has no room for. If a file cannot be written,
+/// the verdict stays as it is and gets a note.
 report::RunRecord record_of(const BoardRun& run, const std::string& out, TempFiles& files, cosim::Host& host);
 
 }  // namespace kage::board

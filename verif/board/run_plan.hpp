@@ -34,8 +34,8 @@ std::vector<PackRun> plan_runs(const vectors::Pack& pack, const Identity& board,
 /// where the height changes. None: the first frame does not fit, or none of them brings lines.
 std::optional<PackRun> plan_loop(const vectors::Pack& pack, const Identity& board);
 
-/// What keeps this board from playing this pack, as one line: another PARAM_HASH or BEAT_WORDS, or a MAX_WIDTH for
-/// which a frame is too wide, or not refused as it must be. Empty: nothing.
+/// Why this board cannot play this pack, as one line: another PARAM_HASH or BEAT_WORDS, or a MAX_WIDTH for which a
+/// frame is too wide, or not refused as it must be. Empty: it can.
 std::string why_unfit(const vectors::Pack& pack, const Identity& board, const std::string& port,
                       const std::vector<std::uint32_t>& widest_refused);
 

@@ -12,7 +12,7 @@
 
 namespace kage::board {
 
-/// What a link carries in one clock of its pixels. rgb has red in bits 0-7, green in 8-15, blue in 16-23.
+/// State of a video link in one clock of its pixels. rgb has red in bits 0-7, green in 8-15, blue in 16-23.
 struct VideoPixel {
   bool active = false;
   bool hsync = false;
@@ -54,8 +54,8 @@ class Screen {
  public:
   explicit Screen(const VideoMode& expected) : mode_(expected) {}
 
-  /// One clock. What comes before the first pulses of the syncs is measured as far as both its ends were seen, and is
-  /// not collected.
+  /// One clock. Before the first pulses of the syncs, an interval is measured if both its ends were seen, and no
+  /// picture is collected.
   void put(const VideoPixel& pixel);
 
   /// The first measure that differs from the mode, as "hsync is 95 pixels wide, expected 96 (clock 17234)"; else empty.

@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::uint64_t kMicrosecond = 1'000'000;  // in picoseconds
 
-/// What build_board.py printed.
+/// Lines that build_board.py printed.
 std::vector<std::string> lines_of_script(std::vector<std::string> arguments) {
   const fs::path script = data_directory() / "verif/board/sim/build_board.py";
   if (!fs::exists(script)) throw Error(fmt::format("{}: no such file: this kage has no boards", script.string()));
@@ -43,7 +43,7 @@ std::vector<std::string> lines_of_script(std::vector<std::string> arguments) {
   return lines;
 }
 
-/// What a screen is plugged into.
+/// The socket that a screen is plugged into.
 enum class Socket : std::uint8_t { none, dvi, vga };
 
 class LoadedBoard : public SimBoard {

@@ -15,7 +15,7 @@
 
 namespace kage::board {
 
-/// What a board in simulation shows besides what it sends.
+/// State of a board in simulation, besides the bytes that it sends.
 struct SimBoardState {
   std::uint64_t microseconds = 0;  ///< of the board's time
   std::uint8_t leds = 0;

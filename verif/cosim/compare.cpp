@@ -116,7 +116,7 @@ FrameComparison::Drawn FrameComparison::drawn(const Image& expected) const {
     const auto width = static_cast<int>(kept_line_) / channels_;
     image = Image(width, width == 0 ? 0 : static_cast<int>(kept_.size() / kept_line_), channels_);
   }
-  // What is kept begins with the first difference; if there is none in the lines, it is that lines are missing.
+  // The kept lines begin at the first difference. Without kept lines, the difference is that lines are missing.
   const auto same = std::min(image.data.size(), image.index(0, kept_.empty() ? lines_ : kept_from_));
   const auto have = std::min(image.data.size() - same, kept_.size());
   const auto end = std::copy_n(kept_.begin(), have, image.data.begin() + static_cast<std::ptrdiff_t>(same));

@@ -21,10 +21,10 @@ struct Difference {
   int frame = 0;      ///< kBehindFrames: of the register check
   int line = -1;      ///< -1: of the frame as a whole
   int x = -1;         ///< -1: not at a pixel
-  std::string field;  ///< "grey", "red", "green", "blue"; "missing" (pixels from there on); "width", "height"; "port";
-                      ///< "register" (a remark says which); "signature" (of a line on a board);
-                      ///< "error", "error_frame", "error_line", "error_token", "error_unit"; "assertion", "finish" (of
-                      ///< the RTL); "stage" (between the RTL's modules: --stages)
+  std::string field;  ///< A pixel: "grey", "red", "green", "blue"; "missing" (pixels from there on). A frame: "width",
+                      ///< "height", "error", "error_frame", "error_line", "error_token", "error_unit". Others: "port";
+                      ///< "register" (a remark says which); "signature" (of a line on a board); "assertion", "finish"
+                      ///< (of the RTL); "stage" (between the RTL's modules: --stages).
   std::int64_t expected = 0;
   std::int64_t actual = 0;
   std::string remark;               ///< more in words, or empty
@@ -33,7 +33,8 @@ struct Difference {
   Before before = Before::nothing;  ///< this frame
   bool ahead = false;               ///< this frame is right: the one right ahead of it has wrong pixels
 
-  /// Of registers, or what failed while they were checked: no stage shows it in a frame, and no frame is to blame.
+  /// Whether it is of registers, or of what failed while they were checked: no stage shows it in a frame, and no frame
+  /// is to blame.
   [[nodiscard]] bool of_registers() const { return frame == kBehindFrames || field == "register"; }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Anything that turns the words of a frame into lines of pixels and a status: the golden model, the RTL. What compares
-// them knows no more.
+// Anything that turns the words of a frame into lines of pixels and a status: the golden model, the RTL. The comparison
+// of two cores knows no more about them.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ namespace kage::cosim {
 /// For lines that nobody looks at.
 inline const LineSink kNowhere = [](int, std::span<const std::uint8_t>) {};
 
-/// What RtlOptions::prelude let come right before a frame.
+/// Event that RtlOptions::prelude let come right before a frame.
 enum class Before {
   nothing,
   reset,  ///< within another frame, or behind it
@@ -88,8 +88,8 @@ class Core {
 
   [[nodiscard]] virtual int channels() const = 0;
 
-  /// The words of frame `number` are next. What is random about a frame, as the clocks in which a port stops, follows
-  /// from the core's seed and this number, not from the frames before it.
+  /// The words of frame `number` are next. Random behaviour within a frame, as the clocks in which a port stops,
+  /// follows from the core's seed and this number, not from the frames before it.
   virtual void begin(int /*number*/) {}
 
   /// The next words of the frame at hand, in pieces of any size. Lines that have come out go to `sink` before this

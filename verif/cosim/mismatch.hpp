@@ -30,7 +30,7 @@ bool differs(const ExpectedEvent& expected, const kage_rtl_event& actual, int va
 /// The first value that matters and differs, then kUnitValue, or -1.
 int first_difference(const ExpectedEvent& expected, const kage_rtl_event& actual);
 
-/// What differs, as a person reads it.
+/// A mismatch in words for a person.
 struct MismatchText {
   std::string field;  ///< "z"; of a token that of docs/stream.md: "color[1]"; "missing": it never came
   std::string expected;

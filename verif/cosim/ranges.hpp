@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A run on several threads: each has a core of its own and a range of consecutive frames. What comes of it is what one
-// thread would have found.
+// A run on several threads: each has a core of its own and a range of consecutive frames. The result is that of a run
+// on one thread.
 #pragma once
 
 #include <atomic>

@@ -21,7 +21,7 @@
 
 namespace kage::cosim {
 
-/// What a verdict hangs on.
+/// Where verdicts are kept, and the conditions under which they hold.
 struct RecallOptions {
   std::shared_ptr<VerdictStore> store;
   std::string context;  ///< recall_context()
@@ -56,11 +56,11 @@ struct Stretch {
   TempFiles files;  ///< their pictures
 };
 
-/// Lets `golden` work through the frames of the range, and finds those of which an earlier run says that the RTL puts
-/// out the same. `all` has the first frame of the run. Of `options` it takes: out, name, steps, refusals, all_pictures;
-/// begin, which may throw Enough to end it; same, called for frames that have a verdict. A frame that cannot be made is
-/// one without verdict, as all behind it: whoever runs it will meet that. `before` gives the words of frames that are
-/// not compared here.
+/// Lets `golden` work through the frames of the range, and finds those whose output by the RTL an earlier run found the
+/// same. `all` has the first frame of the run. Members of `options` that it takes: out, name, steps, refusals,
+/// all_pictures; begin, which may throw Enough to end it; same, called for frames that have a verdict. A frame that
+/// cannot be made has no verdict, like all behind it: whoever runs it will meet that. `before` gives the words of
+/// frames that are not compared here.
 std::vector<std::unique_ptr<Stretch>> recall(const FrameRange& range, const FrameSteps& all, const Feed& feed,
                                              const Feed& before, Core& golden, const RunOptions& options,
                                              const RecallOptions& recalled);
@@ -97,7 +97,7 @@ class VerdictKeeper : public HeardCore {
 
   FrameEnd finish(const LineSink& sink) override;
 
-  /// What RunOptions::begin and RunOptions::same are to call.
+  /// Functions for RunOptions::begin and RunOptions::same to call.
   void next(int frame) { frame_ = frame; }
   void same(const FrameResult& result);
 

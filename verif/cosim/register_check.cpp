@@ -61,7 +61,7 @@ class Checker : RegisterPort {
                KAGE_FIELD_IS(KAGE_CAPABILITY_ACTIVE, static_cast<std::uint32_t>(c.active)));
   }
 
-  // What a reset leaves in registers that change, of a core that stands still; CYCLES counts already.
+  // Values after a reset of registers that change, in a core that stands still; CYCLES counts already.
   void at_reset() {
     for (std::uint32_t a = KAGE_REG_CONTROL; a <= KAGE_REG_STALL; a += 4)
       if (a != KAGE_REG_CYCLES) expect(fmt::format("address {:#04x}, behind reset", a).c_str(), a, 0);
@@ -129,7 +129,7 @@ class Checker : RegisterPort {
   }
 
   // The frame at hand ends. Clocks in which a pixel waits are seen at the port, so the driver counts them as BLOCKED
-  // does; STARVED also asks whether the core has work left, which the port does not show: counts() looks at it.
+  // does. STARVED also asks whether the core has work left, which the port does not show: counts() looks at it.
   void ended() {
     const FrameEnd end = rtl_.finish(kNowhere);
     ++count_;
@@ -231,8 +231,8 @@ class Checker : RegisterPort {
 
   // ---- what every standstill is asked ---------------------------------------------------------------------
 
-  // By one in each clock, or not at all. Of a counter that follows what goes on this is exact while the core stands
-  // still: then all clocks are alike.
+  // The counter goes up by one in each clock, or not at all. A counter of the core's activity meets this exactly while
+  // the core stands still: then all clocks are alike.
   void counts(const char* name, std::uint32_t address, bool each_clock) {
     const std::uint64_t before = rtl_.clock();
     const std::uint32_t first = read(name, address);
@@ -255,8 +255,8 @@ class Checker : RegisterPort {
     write("WATCHDOG", KAGE_REG_WATCHDOG, 0);
   }
 
-  // The pin is high while something has happened that is enabled. What has is cleared, a bit at a time; no enable is
-  // left.
+  // The pin is high while something has happened that is enabled. The bits of what has happened are cleared, one at a
+  // time; no enable is left.
   void interrupts(std::uint32_t happened) {
     while (true) {
       expect("IRQ", KAGE_REG_IRQ, happened);

@@ -24,11 +24,15 @@ struct KnownFrame {
 KnownFrame known_frame(const Config& config, std::vector<std::uint32_t> words, const LineSink& sink = kNowhere);
 
 /// The first register that is not as it must be: "FRAMES: expected 3, got 2". `rtl` is new; it is given the frames, and
-/// some of its own, so that input is dropped, units wait, and either port stands still. Looked at are constants, bytes
-/// that are written alone, counters, lost clocks, the newest error, every interrupt with every enable, what the
-/// watchdog says of a standstill, writes to read-only registers, all addresses behind the last register, what a reset
-/// leaves, and accesses in every clock round an event (register_clocks.hpp).
-/// CoreFailure as of Core. `wait` is called often while the frames are fed; what it throws ends the check.
+/// some of its own, so that input is dropped, units wait, and either port stands still. Things looked at:
+/// * constants, and bytes that are written alone
+/// * counters, lost clocks, and the newest error
+/// * every interrupt with every enable, and the watchdog's report of a standstill
+/// * writes to read-only registers, and all addresses behind the last register
+/// * the values that a reset leaves
+/// * accesses in every clock round an event (register_clocks.hpp)
+///
+/// Throws CoreFailure as Core does. `wait` is called often while the frames are fed; what it throws ends the check.
 std::optional<std::string> wrong_register(
     RtlCore& rtl, const Config& config, std::span<const KnownFrame> frames, const std::function<void()>& wait = [] {});
 

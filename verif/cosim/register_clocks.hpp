@@ -11,9 +11,10 @@
 namespace kage::cosim {
 
 /// Each kind of interrupt happens again and again, and in every clock round it IRQ is read, its counter is read, and
-/// IRQ is cleared. What is read has the event from the clock in which the pin rises. What is cleared stays cleared if
-/// the event came before, and not if it comes in the clock of the clearing or later: an event is never lost
-/// (docs/rtl.md has the clocks that an access takes). The core comes right out of reset; throws as RegisterPort does.
+/// IRQ is cleared. A value that is read has the event from the clock in which the pin rises. A bit that is cleared
+/// stays cleared if the event came before. If the event comes in the clock of the clearing or later, the bit is set: an
+/// event is never lost (docs/rtl.md has the clocks that an access takes). The core comes right out of reset; throws as
+/// RegisterPort does.
 void check_clocks(const RegisterPort& port, const Config& config);
 
 }  // namespace kage::cosim

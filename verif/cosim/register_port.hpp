@@ -12,7 +12,7 @@
 
 namespace kage::cosim {
 
-/// What the register check throws at the first thing that is not as it must be: "FRAMES: expected 3, got 2".
+/// Thrown by the register check at the first thing that is not as it must be: "FRAMES: expected 3, got 2".
 struct WrongRegister {
   std::string what;
 };

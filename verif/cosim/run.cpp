@@ -109,10 +109,10 @@ class Comparer {
   }
 
  private:
-  /// That of the frame at hand.
+  /// Number of the frame at hand.
   [[nodiscard]] int number() const { return options_.steps.first + report_.frames * options_.steps.step; }
 
-  /// What comes out of it is the business of who compares that frame.
+  /// Runs a frame before those of this run; its output is judged by the run that compares it.
   bool take_before(Piece& piece) {
     if (!own_) own_.emplace(actual_, number() - (options_.before - before_) * options_.steps.step, false);
     own_->take(std::move(piece.lines), piece);
@@ -133,7 +133,7 @@ class Comparer {
       if (report_.first_difference) report_.first_difference->other_state = true;
     }
     FrameResult result{frame, e.status, end.counts, a.cycles, a.stalls, a.phase_stalls, {}};
-    // Of a frame that is right, because the one ahead of it is not, pictures would show nothing.
+    // If this frame is right and the one ahead of it is not, pictures would show nothing.
     const bool differs = report_.first_difference && !report_.first_difference->ahead;
     const bool wanted = options_.all_pictures || differs;
     if (wanted && !options_.all_pictures) end.draw();

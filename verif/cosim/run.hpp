@@ -17,7 +17,7 @@
 
 namespace kage::cosim {
 
-/// Which of a scene's frames are run: `first`, `first + step`, ... That is a shard, or all of them.
+/// Frames of a scene that are run, which are a shard or all of them: `first`, `first + step`, ...
 struct FrameSteps {
   int first = 0;
   int step = 1;

@@ -14,7 +14,7 @@
 
 namespace kage::cosim {
 
-/// What is kept of a frame that the RTL had the same as the golden model.
+/// The kept verdict on a frame that the RTL had the same as the golden model.
 struct Verdict {
   std::string output;        ///< a SHA-256 of what both put out: every line, and how the frame ended
   std::uint64_t cycles = 0;  ///< as in FrameEnd, of the RTL

@@ -48,7 +48,7 @@ PixelFault fault_of(const TruePixel& truth, const DrawnFrame& drawn, std::size_t
 /// The greatest error of a stored depth where the face is right, as a share of the range.
 double depth_error(const ScreenTruth& truth, const DrawnFrame& drawn, const Config& config);
 
-/// What is wrong in a frame.
+/// Errors of a frame.
 struct Accuracy {
   std::uint64_t pixels = 0;         ///< of the picture
   std::uint64_t visible_wrong = 0;  ///< pixels that show another face than the truth

@@ -14,7 +14,7 @@ namespace {
 
 using Color = std::array<std::uint8_t, 3>;
 
-// Of frames round pixels: none of the colours of pixels.
+// Colours of frames round pixels; no pixel has them.
 constexpr Color kFrame{150, 150, 150};
 constexpr Color kGrossFrame{255, 0, 255};
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is wrong at each pixel of a picture. The figures of a sweep are sums over these maps, and kage render
-// --error-map shows them.
+// Errors at each pixel of a picture. The figures of a sweep are sums over these maps, and kage render --error-map shows
+// them.
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ std::filesystem::path kept_core_file(const char* cache, const Config& config, co
 /// Keeps in such a file what was found.
 void keep_core(const std::filesystem::path& path, const nlohmann::ordered_json& found);
 
-/// What such a file keeps, as `read` makes it of the JSON. None: it is not there, or damaged, and is to be found again.
+/// Content of such a file, as `read` makes it of the JSON. None: it is not there, or damaged, and is to be found again.
 template <class Read>
 std::optional<std::invoke_result_t<Read, const nlohmann::ordered_json&>> kept_core(const std::filesystem::path& path,
                                                                                    Read read) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The least widths by measurement: each is lowered bit by bit while the pictures of all frames stay within the limits.
-// What holds of the frames that were drawn need not hold of others: kage plan --guarantee bound is for those.
+// They need not be enough for frames that were not drawn: kage plan --guarantee bound is for those.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@
 
 namespace kage::explore {
 
-/// What may be wrong in the pictures, at most.
+/// Greatest errors allowed in the pictures.
 struct MeasuredLimits {
   std::optional<double> wrong;  ///< pixels in a million that show another face or shadow than the oracle, near ties too
   double z = 0;                 ///< error of a stored depth, as a share of the range
@@ -37,14 +37,14 @@ class MeasuredPlan {
   /// given are not enough, it begins at the finest; Error, which names the limit, if those are not enough either.
   void lower(Config& widths, std::vector<PlanReason>& reasons);
 
-  /// What lower() found.
+  /// Result of lower().
   struct Lowered {
     Config least;  ///< before widths are rounded up to steps: what the reasons tell of
     Accuracy least_gives;
     Config taken;  ///< what it put in their place
     Accuracy taken_gives;
   };
-  /// That of a configuration with widths that lower() gave, in any arrangement; null: it gave none such.
+  /// The result for a configuration with widths that lower() gave, in any arrangement; null: it gave none such.
   [[nodiscard]] const Lowered* lowered(const Config& config) const;
 
   /// "0 ppm wrong, depth off by 6.02e-08 (over --max-z 5.96e-08), colour by 1 step", all frames being counted.

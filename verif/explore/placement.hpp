@@ -13,7 +13,7 @@
 
 namespace kage::explore {
 
-/// What placing a core gave.
+/// Result of placing a core.
 struct Placement {
   std::optional<double> mhz;  ///< the clock of one placement, by seed 1; none: the core is not placed
   std::string not_placed;     ///< why, as nextpnr says it; empty with a clock
@@ -28,7 +28,7 @@ class Placer {
   Placer(std::string device, std::function<void()> wait);
 
   [[nodiscard]] const std::string& device() const { return device_; }
-  /// What decides a clock besides core and device: names and versions of the tools, a line each.
+  /// Names and versions of the tools, a line each. They decide a clock besides core and device.
   [[nodiscard]] const std::string& versions() const { return versions_; }
 
   /// Says which cores are going to be placed. Returns how many are not kept, each counted once.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is true of a frame's pixels, by the oracle from the snapped polygons: made once, whatever configurations are
+// The truth about a frame's pixels, by the oracle from the snapped polygons: made once, whatever configurations are
 // held against it.
 #pragma once
 

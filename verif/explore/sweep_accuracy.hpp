@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is wrong in the pictures of a sweep's point, by the oracle, by rays, and against the finest picture.
+// Errors in the pictures of a sweep's point, by the oracle, by rays, and against the finest picture.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace kage::explore {
 
-/// Of all frames of a point.
+/// Errors over all frames of a point.
 struct PointAccuracy {
   PictureError by_truth;         ///< over error_map()
   double z_error_max_lsb = 0;    ///< of a stored depth against the exact one of the point's own snap
@@ -31,8 +31,9 @@ struct PointAccuracy {
   PointAccuracy& operator+=(const PointAccuracy& o);
 };
 
-/// What is wrong in a frame of a point that was drawn as `drawn`: faces and shadows by the oracle of the finest snap,
-/// of as many samples; colours against the finest picture; what is gross by the oracle of the point's own snap.
+/// Errors of a point's frame that was drawn as `drawn`. Faces and shadows are held against the oracle of the finest
+/// snap, with as many samples, and colours against the finest picture. Gross errors are found by the oracle of the
+/// point's own snap.
 ErrorMap error_map(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn);
 
 /// The colours of a drawn frame.
@@ -41,15 +42,16 @@ Image image_of(const DrawnFrame& drawn);
 /// Measures a frame of a point that was drawn as `drawn`.
 PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point, const DrawnFrame& drawn, bool flip);
 
-/// How far the share of a soft light's samples beyond a straight edge is from the share of the light's area, over edges
-/// at all places and of all directions: of the light of the frame that does worst. None: no light is soft.
+/// Error of a soft light's samples at straight edges: how far their share beyond an edge is from the share of the
+/// light's area, over edges at all places and of all directions. It is that of the frame's worst light. None: no light
+/// is soft.
 struct SoftShare {
   double rms = 0;
   double worst = 0;
 };
 std::optional<SoftShare> soft_share(const SceneFrame& frame, const SweepPoint& point);
 
-/// Of PictureError::squares, in dB; none if all colours are equal.
+/// PSNR from PictureError::squares, in dB; none if all colours are equal.
 std::optional<double> psnr(double squares, std::uint64_t pixels);
 
 }  // namespace kage::explore

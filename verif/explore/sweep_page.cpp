@@ -46,7 +46,7 @@ class Pictures {
     return std::string(kPicturesFolder) + "/" + name;
   }
 
-  /// Those that an earlier page had, and this one has not, go with the others' coming.
+  /// Removes, with the others' coming, the pictures that an earlier page had and this one has not.
   void remove_old() {
     for (const fs::directory_entry& entry : fs::directory_iterator(folder_ / kPicturesFolder)) {
       const std::string name = entry.path().filename().string();
@@ -116,7 +116,7 @@ std::vector<std::vector<std::size_t>> groups_of(const std::vector<PageRow>& rows
   return out;
 }
 
-/// What a group's files begin with: the scene's name without folders and ending, and the size; each only once.
+/// Start of a group's file names: the scene's name without folders and ending, and the size; each start only once.
 std::string stem_of(const Json& row, std::set<std::string>& taken) {
   std::string stem = fs::path(row.at("scene").get<std::string>()).stem().string();
   for (char& c : stem)
@@ -129,7 +129,7 @@ std::string stem_of(const Json& row, std::set<std::string>& taken) {
 
 using Stems = std::map<std::string, std::string>;
 
-/// What the files of each group begin with.
+/// Start of the file names of each group.
 Stems stems_of(const std::vector<PageRow>& rows) {
   std::set<std::string> taken;
   Stems out;
@@ -142,7 +142,7 @@ std::string file_of(const Stems& stems, const Json& row, const SweepPlot& plot) 
   return fmt::format("{}_{}", stems.at(group_of(row)), plot.kind);
 }
 
-/// Those of rows among which there is something to choose.
+/// Plots of rows, if there is something to choose among them.
 std::vector<SweepPlot> plots_to_choose_in(const std::vector<PageRow>& rows, const std::vector<std::size_t>& members) {
   return members.size() < 2 ? std::vector<SweepPlot>() : plots_of(rows, members);
 }
@@ -158,7 +158,7 @@ void write_plots(TempFiles& files, const fs::path& folder, const SweepPage& page
     }
 }
 
-/// What the page shows of a sweep.
+/// Rows of a sweep that the page shows.
 struct Shown {
   std::vector<PageRow> rows;
   int frames = 0;        ///< of each row, of which it has pictures

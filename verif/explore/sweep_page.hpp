@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a sweep leaves in a folder: plots of error against cost as SVG and PNG, the picture of each row, and the page
-// that shows all of it (docs/sweep.md, "Page and plots").
+// Files that a sweep leaves in a folder: plots of error against cost as SVG and PNG, the picture of each row, and the
+// page that shows all of it (docs/sweep.md, "Page and plots").
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,7 @@ struct PageRow {
   SweepScene* scene = nullptr;
   std::string command;  ///< that draws its pictures, with the row's parameters in kPageConfig
 };
-/// What a reader calls the file of the parameters that the page gives.
+/// Name under which a reader keeps the parameters that the page gives.
 inline constexpr const char* kPageConfig = "chosen.yaml";
 
 /// A plot of some rows of one scene and size.
@@ -38,7 +38,7 @@ struct SweepPlot {
 /// The plots of rows of one scene and size, which are members `members` of `rows`.
 std::vector<SweepPlot> plots_of(const std::vector<PageRow>& rows, const std::vector<std::size_t>& members);
 
-/// What a row is called: its axis and value.
+/// Name of a row: its axis and value.
 std::string name_of(const nlohmann::ordered_json& row);
 
 struct SweepPage {

@@ -166,7 +166,7 @@ Combination combination(const SweepPoint& base, std::span<const SweepAxis> axes,
   // A processor for each column: the columns come first.
   std::stable_partition(order.begin(), order.end(), [&](std::size_t i) { return axes[i].name == "SIZE"; });
   set_all(c, axes, chosen, order);
-  // What a value takes with it may be another named value, which in the other order stays: COLOR_FRAC 0 and SMOOTH.
+  // A value may change another named value, which stays if it is set later: COLOR_FRAC 0 and SMOOTH.
   if (const std::string why = c.why; !why.empty()) {
     std::reverse(order.begin(), order.end());
     set_all(c, axes, chosen, order);
@@ -179,7 +179,7 @@ Combination combination(const SweepPoint& base, std::span<const SweepAxis> axes,
   return c;
 }
 
-/// What is legal of a list, as axes take it.
+/// The numbers of a list as texts, as axes take them.
 std::vector<std::string> texts(std::initializer_list<int> values) {
   std::vector<std::string> out;
   for (const int v : values) out.push_back(std::to_string(v));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a sweep measures: configurations of the core, and looks, that differ from a base in one thing, in all, or in
-// every combination of some (docs/sweep.md, "Axes").
+// Points that a sweep measures: configurations of the core, and looks, that differ from a base in one thing, in all, or
+// in every combination of some (docs/sweep.md, "Axes").
 #pragma once
 
 #include <span>
@@ -43,9 +43,9 @@ std::vector<std::string> axis_names();
 /// by with().
 SweepAxis parse_axis(const std::string& text);
 
-/// The point with another value of an axis. What the value needs goes with it: SAMPLES raises COUNT_BITS, COLOR_FRAC
-/// sets SMOOTH, SIZE raises MAX_WIDTH; what it takes the ground from is given up, as all of the shadows with DSF_BITS
-/// 0. Throws Error where the value is none of the axis.
+/// The point with another value of an axis. Values that the new one needs go with it: SAMPLES raises COUNT_BITS,
+/// COLOR_FRAC sets SMOOTH, SIZE raises MAX_WIDTH. Values that lose their ground are given up, as all of the shadows
+/// with DSF_BITS 0. Throws Error where the value is none of the axis.
 SweepPoint with(const SweepPoint& base, std::string_view axis, const std::string& value);
 
 /// Each value of each axis alone about the base, which is the first.
@@ -68,12 +68,12 @@ Grid grid(const SweepPoint& base, std::span<const SweepAxis> axes);
 /// Some 60 points: each axis alone about the base as far as a scene with these needs shows it, and the corners.
 std::vector<SweepPoint> default_points(const SweepPoint& base, const Needs& needs);
 
-/// Points with several samples once more for each of `seeds` - 1 further seeds of the samples' pattern. Of a scene
+/// Points with several samples once more for each of `seeds` - 1 further seeds of the samples' pattern. In a scene
 /// without soft lights, which has no pattern, it is the same picture again.
 std::vector<SweepPoint> with_seeds(std::vector<SweepPoint> points, int seeds);
 
-/// What two points have in common whose clocks differ only as their words and groups of lanes do: the core's features
-/// and its arrangement, but no widths.
+/// The core's features and its arrangement as text, but no widths. Points with the same text have clocks that differ
+/// only as their words and groups of lanes do.
 std::string features_text(const Config& config);
 
 }  // namespace kage::explore

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What one point of a sweep gives: accuracy, speed, cost (docs/sweep.md says how each figure is measured).
+// Figures of one point of a sweep: accuracy, speed, cost (docs/sweep.md says how each figure is measured).
 #pragma once
 
 #include <cstdint>
@@ -26,7 +26,7 @@ struct SweepTools {
   std::string model = {};  ///< Verilator and compiler, which make RTL models
 };
 
-/// What is measured, and who is told.
+/// How a sweep measures, and whom it tells.
 struct SweepHow {
   bool area = true;   ///< yosys counts cells; else they are estimated
   bool cosim = true;  ///< clocks come from the RTL; else from the design
@@ -83,7 +83,7 @@ class SweepRunner {
 
   /// The point whose clocks stand for those of this one: itself, if it is the one that is co-simulated.
   [[nodiscard]] std::size_t representative(std::size_t point) const { return stands_for_[point]; }
-  /// What a point's clocks are taken from: part of the key of its row.
+  /// The source of a point's clocks as text: part of the key of its row.
   [[nodiscard]] std::string clocks_text(std::size_t index) const;
   /// The tools that a point's figures come from, with their versions: part of the key of its row.
   [[nodiscard]] std::string tools_text(std::size_t index) const;
@@ -117,16 +117,16 @@ bool is_built(const Config& config);
 /// The key under which a store keeps something: SHA-256 of all that decides it.
 std::string key_of(const std::vector<std::string>& parts);
 
-/// What tells one build of this program from another: `name`, if it names a commit and nothing is changed, as results
-/// then follow from it; else SHA-256 of the program's file besides.
+/// Identity of a build of this program: `name`, if it names a commit and nothing is changed, as results then follow
+/// from it; else SHA-256 of the program's file besides.
 std::string build_identity(const std::string& name);
 
 /// The scene and size of a row, "courtyard at 320x240": rows are compared with those of the same.
 std::string group_of(const nlohmann::ordered_json& row);
 
-/// Marks the rows that no other row of the same scene and size beats: none is at least as good in wrong pixels, error
-/// of colour, clocks a pixel and look-up tables, and better in one. Rows have `scene`, `config` (with `width`, `height`
-/// in `look`), `accuracy`, `speed` and `area`.
+/// Marks the rows that no other row of the same scene and size beats. A row beats another if it is at least as good in
+/// wrong pixels, error of colour, clocks a pixel and look-up tables, and better in one. Rows have `scene`, `config`
+/// (with `width`, `height` in `look`), `accuracy`, `speed` and `area`.
 std::vector<bool> pareto(const std::vector<nlohmann::ordered_json>& rows);
 
 }  // namespace kage::explore

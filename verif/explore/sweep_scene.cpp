@@ -36,8 +36,8 @@ void add(cosim::Sha256& hash, std::initializer_list<double> numbers) {
 
 void add(cosim::Sha256& hash, const glm::dvec3& v) { add(hash, {v.x, v.y, v.z}); }
 
-/// All of a frame that pictures, shadows or rays depend on. What a core lacks is in no word of its own, and it shows in
-/// the finest picture: a translucent face's alpha, a light's size.
+/// All of a frame that pictures, shadows or rays depend on. A feature that a core lacks is in no word of its own, and
+/// yet shows in the finest picture: a translucent face's alpha, a light's size.
 void add(cosim::Sha256& hash, const SceneFrame& f) {
   add(hash, f.vertices);
   add(hash, f.corners);

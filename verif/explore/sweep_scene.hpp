@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The frames of a scene with what is true of them, each made once and kept for all configurations of a sweep: the
-// oracle's answers, those of exact rays, the picture with everything at its finest, and what each source of error does
-// alone. For several threads at once.
+// The frames of a scene with the truth about them, each made once and kept for all configurations of a sweep. The truth
+// is the oracle's answers, those of exact rays, the picture with everything at its finest, and the effect of each
+// source of error alone. For several threads at once.
 #pragma once
 
 #include <array>
@@ -21,19 +21,19 @@
 
 namespace kage::explore {
 
-/// What a picture's error comes from.
+/// Sources of a picture's error.
 enum class ErrorSource : std::uint8_t { snapping, depth, color, samples, classes, order };
 inline constexpr std::array kErrorSources{ErrorSource::snapping, ErrorSource::depth,   ErrorSource::color,
                                           ErrorSource::samples,  ErrorSource::classes, ErrorSource::order};
 std::string_view name_of(ErrorSource source);
 
-/// What exact rays through the unsnapped scene say of a pixel.
+/// Answers of exact rays through the unsnapped scene at a pixel.
 struct RayPixel {
   int x = 0;
   int y = 0;
   std::uint32_t face = kNothing;  ///< opaque
-  /// By light, how many of its samples are kept from the pixel; -1: it is not to be compared, because nothing was
-  /// asked, there is no such light, or some of its samples are on the other side of the face than the eye.
+  /// By light, how many of its samples are kept from the pixel; -1: it is not to be compared. The reason is that
+  /// nothing was asked, there is no such light, or some of its samples are on the other side of the face than the eye.
   std::array<int, 8> counts{-1, -1, -1, -1, -1, -1, -1, -1};
   /// Translucent faces before it, back to front. None if two are at one distance, where either order is right.
   std::vector<std::uint32_t> layers;
@@ -57,7 +57,7 @@ class SweepScene {
   /// SHA-256 of all that decides the frames' pictures: faces with their colours and alpha, lights, cameras. Another
   /// file of the same name, or the same with another --alpha, is another scene.
   [[nodiscard]] const std::string& identity() const;
-  /// What its frames ask for. More than one sample: some light is soft.
+  /// Features that its frames ask for. More than one sample: some light is soft.
   [[nodiscard]] const Needs& needs() const;
   [[nodiscard]] DrawOptions draw_options(const SweepPoint& point) const;
 
@@ -72,10 +72,10 @@ class SweepScene {
   /// The oracle's answers for a snap of so many bits, with the samples of the point.
   std::shared_ptr<const ScreenTruth> truth(int index, const SweepPoint& point, int sub_bits);
   std::shared_ptr<const DrawnFrame> finest_picture(int index, const SweepPoint& point);
-  /// Of pixels that are spread evenly over the picture: all of them, or as many as seconds allow; lights, with the
-  /// samples of the point, of fewer of them where there are many.
+  /// Rays at pixels that are spread evenly over the picture: all of them, or as many as seconds allow. Lights, with the
+  /// samples of the point, are asked at fewer of these pixels where there are many.
   std::shared_ptr<const std::vector<RayPixel>> rays(int index, const SweepPoint& point);
-  /// What is wrong in the picture of alone(point, source) against the finest one. It is not kept.
+  /// Errors of the picture of alone(point, source) against the finest one. The map is not kept.
   ErrorMap map_of(int index, const SweepPoint& point, ErrorSource source);
   /// The sums over that, kept.
   std::shared_ptr<const PictureError> error_of(int index, const SweepPoint& point, ErrorSource source);

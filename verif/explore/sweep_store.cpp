@@ -33,7 +33,7 @@ constexpr const char* kClocksTable =
     "CREATE TABLE clocks (key TEXT PRIMARY KEY, cycles INTEGER NOT NULL, foretold INTEGER NOT NULL, "
     "seconds REAL NOT NULL, sum TEXT NOT NULL) WITHOUT ROWID";
 
-/// What a row's columns come to.
+/// Checksum of a row's columns.
 std::string sum_of(const std::vector<std::string>& columns) {
   cosim::Sha256 hash;
   for (const std::string& text : columns) hash.add(text);
@@ -52,7 +52,7 @@ std::string sqlite_name(const std::filesystem::path& file) { return std::filesys
   throw Error(fmt::format("{}: the store is damaged, so begin another: {}", file, how));
 }
 
-/// What a damaged store calls something, on one line: its name may be of any bytes, and as long as it likes.
+/// A damaged store's name of something, on one line: it may be of any bytes, and as long as it likes.
 std::string plain_text(std::string name) {
   constexpr std::size_t kShown = 64;
   name.resize(std::min(name.size(), kShown));
@@ -65,7 +65,7 @@ std::string plain_text(std::string name) {
   damaged(file, fmt::format("table {}, row {}: its checksum differs", table, plain_text(key)));
 }
 
-/// What has just gone wrong, in words of who runs a sweep.
+/// The failure that has just happened, in words for a person who runs a sweep.
 std::string cause_of_failure(sqlite3* db) {
   const int error = sqlite3_system_errno(db);
   const std::string of_system = error == 0 ? "" : fmt::format(": {}", std::strerror(error));

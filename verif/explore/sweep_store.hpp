@@ -13,7 +13,7 @@
 
 namespace kage::explore {
 
-/// What a row is made of, beyond its point: two rows of a point differ in one of these, or in what the sweep was asked.
+/// Sources of a row, beyond its point: two rows of a point differ in one of these, or in what the sweep was asked.
 struct MadeOf {
   std::string build;  ///< build_identity()
   std::string scene;  ///< SweepScene::identity()
@@ -38,9 +38,9 @@ class SweepStore {
   /// Keeps a run in a transaction of its own: it is there whole, or not at all, whatever happens next.
   void keep_run(const std::string& key, const std::string& scene, const std::string& point, const MadeOf& of,
                 const std::string& row);
-  /// What else the rows of a point are made of, if there are some, and none is made of this: "another build of kage",
-  /// "another scene of this name" or "other tools, or of more or fewer of them", as the row says that has most in
-  /// common. Empty otherwise.
+  /// If there are rows of a point, and none has these sources: the difference to the row that has most in common with
+  /// them. It is "another build of kage", "another scene of this name" or "other tools, or of more or fewer of them".
+  /// Empty otherwise.
   [[nodiscard]] std::string old(const std::string& scene, const std::string& point, const MadeOf& of);
   [[nodiscard]] std::optional<ClockSample> clocks(const std::string& key);
   void keep_clocks(const std::string& key, const ClockSample& sample);

@@ -39,7 +39,7 @@ std::string program() {
   return yosys != nullptr && *yosys != '\0' ? yosys : "yosys";
 }
 
-/// What a program says; nothing if it cannot be run or fails.
+/// Output of a program; nothing if it cannot be run or fails.
 std::optional<std::string> output_of(const std::vector<std::string>& command, const std::function<void()>& wait) {
   try {
     cosim::Process process(command);

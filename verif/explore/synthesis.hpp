@@ -10,7 +10,7 @@
 
 namespace kage::explore {
 
-/// Of one core, as synthesis counts them before placement.
+/// Cells of one core, as synthesis counts them before placement.
 struct CellCount {
   int luts = 0;        ///< ECP5: LUT4, two for each CCU2C of a carry chain, four for each TRELLIS_DPR16X4 of LUT RAM
   int flip_flops = 0;  ///< TRELLIS_FF
@@ -30,7 +30,7 @@ struct Synthesis {
 /// Throws Error if there is no yosys, or if it fails: then the message has its last line.
 Synthesis synthesize(const Config& config, const std::function<void()>& wait, bool anew = false);
 
-/// What `yosys -V` says. Throws Error if there is no yosys.
+/// Output of `yosys -V`. Throws Error if there is no yosys.
 std::string yosys_version(const std::function<void()>& wait);
 
 /// The counts of the same, if they are kept.

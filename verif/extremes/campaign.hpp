@@ -27,7 +27,7 @@ struct CampaignOptions {
   std::function<void(double done, const struct CampaignState&)> progress;  ///< called now and then
 };
 
-/// What a family has come to.
+/// Results of a family.
 struct FamilyResult {
   const Family* family = nullptr;
   std::uint64_t starts = 0;  ///< that were run to their ends, or to a failure
@@ -57,7 +57,7 @@ struct CampaignState {
 /// The name of a start, by which --case runs it again: FAMILY:SEED:INDEX.
 std::string case_name(const Family& family, std::uint64_t seed, std::uint64_t index);
 
-/// What the thread at hand is checking, for a message where the process ends within it.
+/// Name of the case that this thread is checking, for a message where the process ends within it.
 const char* case_at_hand();
 void set_case_at_hand(const std::string& name);
 

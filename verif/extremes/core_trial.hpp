@@ -13,7 +13,7 @@
 
 namespace kage::verif {
 
-/// What a trial does, as chances; the defaults are a bit of everything.
+/// Plan of a trial, as chances; the defaults are a bit of everything.
 struct TrialPlan {
   int groups = 4;           ///< of frames one right after another
   double sound = 0.5;       ///< that a frame is sound, not damaged
@@ -31,7 +31,7 @@ class CoreTrial {
 
   /// Whether the core did what the golden core does.
   bool run();
-  /// What went wrong.
+  /// The error in words.
   [[nodiscard]] const std::string& text() const { return text_; }
   /// Pixels that were compared.
   [[nodiscard]] std::uint64_t pixels() const { return pixels_; }

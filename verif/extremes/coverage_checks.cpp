@@ -26,7 +26,7 @@ class Scanned {
   const Context* context_;
 };
 
-/// What is in a picture's box of an outline: columns and lines, from and up to but not.
+/// Box of an outline within a picture: columns from x0 up to but not x1, lines from y0 up to but not y1.
 struct Box {
   int x0, y0, x1, y1;
 };

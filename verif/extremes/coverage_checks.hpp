@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What must hold of the pixels that a polygon covers.
+// Rules for the pixels that a polygon covers.
 #pragma once
 
 #include "extremes/family.hpp"

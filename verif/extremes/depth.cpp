@@ -20,7 +20,7 @@ constexpr int kWidth = 96;
 constexpr int kMiddle = kWidth / 2;
 constexpr int kHeight = 40;
 
-/// What a plane says at a pixel, in 2^-24, in 128 bits: the definition, without anything of the front end.
+/// Value of a plane at a pixel, in 2^-24, in 128 bits: the definition, without anything of the front end.
 Int128 exact_value(const ScreenPlane& p, int x, int y) {
   return Int128{p.c} + Int128{p.a} * (x - p.x0) + Int128{p.b} * (y - p.y0);
 }

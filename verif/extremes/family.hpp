@@ -19,7 +19,7 @@
 
 namespace kage::verif {
 
-/// What became of a case.
+/// Result of a case.
 struct Outcome {
   std::uint64_t pixels = 0;  ///< at which an oracle's answer and kage's were compared
   std::uint64_t items = 0;   ///< other things compared: steps of an eye, fragments, values of a curve
@@ -27,7 +27,7 @@ struct Outcome {
   double bound = 0;          ///< its bound, in the same unit; 0 where nothing was measured
   std::string wrong;         ///< empty: all holds
 
-  /// The first thing that is wrong is told.
+  /// Keeps the first error.
   void fail(const std::string& what) {
     if (wrong.empty()) wrong = what;  // an empty text is no failure
   }
@@ -62,13 +62,13 @@ const std::vector<std::string>& plant_names();
 
 struct RtlModels;
 
-/// What checks are given besides their case.
+/// Input of checks besides their case.
 struct Context {
   Plant plant = Plant::none;
   RtlModels* models = nullptr;  ///< none: families of the RTL have no cases
 
   [[nodiscard]] bool planted(Plant p) const { return plant == p; }
-  /// Where it is planted, a pixel is wrong.
+  /// Makes a pixel wrong, if that error is injected.
   template <class Pixels>
   void spoil(Pixels& pixels) const {
     if (planted(Plant::wrong_pixel) && !pixels.empty()) pixels[pixels.size() * 17 / 33] ^= 1;
@@ -95,7 +95,7 @@ struct FamilyInfo {
         rtl(rtl_) {}
 };
 
-/// What a start and the search from it came to.
+/// Result of a start and of the search from it.
 struct Search {
   std::uint64_t cases = 0;
   Outcome sum;
@@ -120,7 +120,7 @@ class Family {
   /// A case from its text. Throws Error that names `name` and a line where it is none.
   [[nodiscard]] virtual Outcome check(const std::string& text, const std::string& name,
                                       const Context& context) const = 0;
-  /// What RapidCheck shrinks a failing case to, as text, until `stop`.
+  /// The case that RapidCheck shrinks a failing one to, as text. It shrinks until `stop`.
   [[nodiscard]] virtual std::string shrink(const std::string& text, const Context& context,
                                            const std::function<bool()>& stop) const = 0;
   /// The same text, read and written, for tests.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a case is made of: numbers and choices, each with a name and a range. A case says its fields once, by
-// fields(Fields&), and all that is done with cases follows from that: drawing one by chance, writing and reading its
-// text, changing it a little, making it simpler.
+// Fields of a case: numbers and choices, each with a name and a range. A case says its fields once, by fields(Fields&),
+// and all that is done with cases follows from that: drawing one by chance, writing and reading its text, changing it a
+// little, making it simpler.
 #pragma once
 
 #include <algorithm>

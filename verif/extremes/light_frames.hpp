@@ -44,8 +44,8 @@ inline std::vector<std::uint32_t> light_frame(const Config& c, int width, const 
   return words;
 }
 
-/// What pixel x of that line is: each light's samples over it counted up to what a counter holds, and 255 less their
-/// shares, rounded.
+/// Value of pixel x of that line. Each light's samples over it are counted up to what a counter holds, and their shares
+/// are taken from 255, rounded.
 inline std::uint8_t light_pixel(const Config& c, int x, const std::vector<LightSample>& samples,
                                 const std::vector<std::uint32_t>& shares) {
   std::vector<std::uint64_t> counts(shares.size());

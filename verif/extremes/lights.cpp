@@ -195,8 +195,8 @@ bool TableFrame::add(const glm::dvec3& normal) {
 
 void TableFrame::finish() { table_->finish(g_); }
 
-// docs/lights.md, "How far a table is off": what a class says that the shadowed lights take is off by at most
-// k (W + 0.04) r and a rounding for each light, W being the weight of all lights and k the steepest slope of the loss.
+// docs/lights.md, "How far a table is off". By a class, the loss to the shadowed lights is off by at most k (W + 0.04)
+// r and a rounding for each light. W is the weight of all lights, and k the steepest slope of the loss.
 void TableFrame::measure(std::size_t face, double off_class, Outcome& o, const Context& context) const {
   const double steepest = (srgb_encode(0.2 + 1e-6) / srgb_encode(0.2) - 1) / 1e-6;
   constexpr double kAmbientWeight = 0.04;

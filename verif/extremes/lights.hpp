@@ -62,8 +62,8 @@ class TableFrame {
   /// The table is made: no face comes after it.
   void finish();
   [[nodiscard]] std::size_t faces() const { return faces_.size(); }
-  /// Measures, in every state of shadow, how far the shares of a face's class are off its own, against their bound,
-  /// which goes with the distance from the face's normal to its class's: `off_class`, or less.
+  /// Measures, in every state of shadow, how far the shares of a face's class are off its own, against their bound. The
+  /// bound goes with the distance from the face's normal to its class's: `off_class`, or less.
   void measure(std::size_t face, double off_class, Outcome& o, const Context& context = {}) const;
 
  private:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What must hold of any visibility order, and of the lines where planes cut faces.
+// Rules for any visibility order, and for the lines where planes cut faces.
 #pragma once
 
 #include <array>

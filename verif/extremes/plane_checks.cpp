@@ -175,7 +175,7 @@ class TrueFace {
     slope_error_ = share < 0.5 ? 2 * (steps_ * pixel_ * of_normal / size + slope() * (share + 0x1p-49)) : INFINITY;
   }
 
-  /// What rounding in doubles may add at a corner `pixels` columns and lines from the plane's anchor, another corner.
+  /// Greatest rounding error of doubles at a corner `pixels` columns and lines from the plane's anchor, another corner.
   [[nodiscard]] double in_doubles(double pixels) const {
     const double place = 0x1p-46 * reach_;  // of a corner, in space
     const double w = truth_->camera.perspective ? nearest_ : 1;
@@ -236,7 +236,7 @@ Outcome sides_hold(const SceneFrame& f, const Config& config, int width, int hei
   look.leave_out = false;
   const FrameGeometry g = make_geometry(f, config, width, height, {.look = look});
   const Truth truth(f, config, width, height, look);
-  // The volumes in space are what the sides are made from. That they are right is not asked here.
+  // The sides are made from the volumes in space. Whether these are right is not asked here.
   const View view(f.camera, width, height, config.z_bits, truth.range, look.sub_bits);
   const SampledLights lights(f, config, look, view);
   const std::vector<SpaceBox> boxes = component_boxes(f);

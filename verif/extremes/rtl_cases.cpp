@@ -12,7 +12,7 @@ namespace kage::verif {
 namespace {
 
 constexpr std::array kModels{"lanes1", "flat4", "systolic64", "tree3", "glass1", "glass4", "soft4", "lights4"};
-/// Of each group all parameters are the same that affect pixels.
+/// Groups of models: within a group, all parameters that affect pixels are the same.
 constexpr std::array<std::array<const char*, 3>, 2> kGroups{
     {{"lanes1", "flat4", "systolic64"}, {"glass1", "glass4", nullptr}}};
 /// Clocks of any case at most.

@@ -18,8 +18,8 @@ const std::vector<const char*>& model_names();
 std::vector<std::uint8_t> rtl_pixels(const CoreModel& model, const std::vector<std::uint32_t>& words,
                                      std::uint64_t seed, std::string& wrong);
 
-/// Whether a model's lines of samples of lights are what light_pixel() says; it draws the line twice, and the second
-/// finds what the first has left. What is wrong, or an empty text.
+/// Checks that a model's lines of samples of lights are what light_pixel() says. It draws the line twice, and the
+/// second finds what the first has left. Returns the error in words, or an empty text.
 std::string light_line_wrong(const CoreModel& model, std::uint64_t seed, int width,
                              const std::vector<LightSample>& samples, const std::vector<std::uint32_t>& shares,
                              const Context& context = {});

@@ -22,7 +22,7 @@ struct CoreModel {
 /// Throws Error that names the path where it is no model of this interface. The library stays loaded.
 CoreModel load_core(const std::string& path);
 
-/// Those of a folder, loaded when first asked for. For several threads at once.
+/// The models of a folder, loaded when first asked for. For several threads at once.
 struct RtlModels {
  public:
   explicit RtlModels(std::string folder) : folder_(std::move(folder)) {}

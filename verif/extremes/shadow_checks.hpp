@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What must hold of any frame with shadow volumes.
+// Rules for any frame with shadow volumes.
 #pragma once
 
 #include <span>

@@ -111,7 +111,7 @@ Outcome CrossedCase::check(const Context& context) const {
   const Config config = counting(bits);
   const FrameGeometry g = geometry(f, config, look_of(sub_bits));
   Outcome o = picture_is_the_oracles(g, config, context);
-  // The zigzag and the floor below it. What fits in one volume is one.
+  // The zigzag and the floor below it. A shadow that fits in one volume is one volume.
   if (bits > 1 && (g.volumes.size() == 1) != (crossed + 1 <= (1 << bits) - 1))
     o.fail(fmt::format("{} volumes for {} crossings", g.volumes.size(), crossed + 1));
   o.add(picture_is_the_rays(f, g, config, context));

@@ -14,7 +14,7 @@ double per_hour(const CampaignState& state) {
   return state.seconds > 0 ? static_cast<double>(state.pixels()) / state.seconds * 3600 : 0;
 }
 
-// Of one row, its cells.
+// Cells of one row.
 std::array<std::string, 9> cells(const FamilyResult& r) {
   const FamilyInfo& info = r.family->info();
   const Outcome& o = r.sum;

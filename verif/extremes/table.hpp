@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a campaign came to: a table for people, JSON for programs.
+// Results of a campaign: a table for people, JSON for programs.
 #pragma once
 
 #include <string>

@@ -90,8 +90,8 @@ inline std::vector<std::vector<std::vector<SegmentToken>>> segments_of(const Pic
   return lines;
 }
 
-/// What a frame's segments are, and what they have to be whatever is on them: every line of every unit sums to the
-/// width, none is empty or too long, and a unit is named iff a polyhedron has it.
+/// Counts of a frame's segments, and the first broken rule. The rules hold whatever is on the segments: every line of
+/// every unit sums to the width, none is empty or too long, and a unit is named iff a polyhedron has it.
 struct SegmentCount {
   int units = 0;        ///< of the configuration
   int by_segments = 0;  ///< polyhedra
@@ -103,7 +103,7 @@ struct SegmentCount {
   std::uint64_t face_pixels = 0;
   std::size_t most = 0;  ///< of a unit on a line
   int longest = 0;       ///< pixels of a segment
-  std::string wrong;     ///< of what has to be, the first that is not; empty: all is
+  std::string wrong;     ///< the first broken rule; empty: none
 
   void must(bool holds, const char* what) {
     if (!holds && wrong.empty()) wrong = fmt::format("{} units: {}", units, what);
@@ -179,8 +179,8 @@ using PixelSpoil = std::function<void(std::vector<std::uint32_t>& pixels)>;
 
 inline constexpr std::array<int, 8> kUnitCounts{1, 2, 3, 4, 5, 8, 9, 64};
 
-/// The same frame by spans and with each of kUnitCounts units: the same pixels. What the segments were, in that order,
-/// and of each what is wrong. `spoil` changes pixels by segments, for tests that must see it.
+/// The same frame by spans and with each of kUnitCounts units: the same pixels. Returns the counts of segments, in that
+/// order, each with its error. `spoil` changes pixels by segments, for tests that must see it.
 inline std::array<SegmentCount, kUnitCounts.size()> either_way_counts(const SceneFrame& f, Config config, int width,
                                                                       int height, const Look& look = {},
                                                                       const PixelSpoil& spoil = {}) {

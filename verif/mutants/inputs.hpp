@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What mutants are tried on: small configurations that between them have everything, and frames for each.
+// Inputs for mutants: small configurations that between them have everything, and frames for each.
 #pragma once
 
 #include <cstdint>

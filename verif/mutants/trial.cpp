@@ -40,7 +40,7 @@ TrialVerdict failed(const cosim::CoreFailure& e) {
   return {"assertion", module_of(e.where()), e.what()};
 }
 
-// Of the frames up to one; assertions would end that too early.
+// Looks through the frames up to `frame`, without assertions, which would end that too early.
 std::optional<cosim::Divergence> diverges(int frame, const std::filesystem::path& library, const Inputs& inputs,
                                           const Sequence& sequence, const cosim::RtlOptions& rtl) {
   cosim::ReplayOptions options;
@@ -100,7 +100,7 @@ std::optional<TrialVerdict> try_mutant(const std::filesystem::path& library, con
     return failed(e);
   }
   if (!wrong && mutant != 0) return std::nullopt;
-  // Again with monitors: registers may say truly what a module says wrong. Of the sound RTL they say nothing.
+  // Again with monitors: registers may say truly what a module says wrong. On the sound RTL, monitors say nothing.
   const auto rtl = make_rtl(library, inputs.config, options);
   rtl->record(true);
   (void)wrong_register(*rtl, inputs.config, inputs.sequences.front().frames);

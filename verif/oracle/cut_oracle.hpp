@@ -11,7 +11,7 @@
 
 namespace kage::verif {
 
-/// What the corners of two faces say of each pixel.
+/// Exact cut of a face by a node's plane at each pixel, from the corners of both faces alone.
 class CutOracle {
  public:
   using Number = boost::multiprecision::cpp_rational;
@@ -53,7 +53,7 @@ class CutOracle {
   /// plane, times a positive factor that is the same for all places. Linear in x and y.
   [[nodiscard]] Number value(const Number& x, const Number& y) const { return a_ * x + b_ * y + c_; }
 
-  /// What it changes by over a pixel, along x or along y, whichever is more.
+  /// Change of value() over a pixel, along x or along y, whichever is more.
   [[nodiscard]] Number slope() const { return std::max<Number>(abs(a_), abs(b_)); }
 
  private:

@@ -21,8 +21,8 @@
 
 namespace kage::verif {
 
-/// What a scene for Embree is made for: to be right, or to be fast. Only the former leaves out a ray's own face and
-/// what is translucent (nearest(), blocked()).
+/// Purpose of a scene for Embree: to be right, or to be fast. Only for truth, a ray's own face and translucent faces
+/// are left out (nearest(), blocked()).
 enum class EmbreeUse { truth, speed };
 
 class EmbreeScene {
@@ -121,7 +121,7 @@ class EmbreeScene {
   };
 #endif
 
-  // What is the face itself, or translucent, casts no shadow.
+  // The face itself and translucent faces cast no shadow.
   static void pass(const RTCFilterFunctionNArguments* a) {
     const auto* self = static_cast<const EmbreeScene*>(a->geometryUserPtr);
     const auto* context = reinterpret_cast<const Context*>(a->context);  // begins with Embree's own

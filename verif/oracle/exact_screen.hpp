@@ -56,7 +56,7 @@ class ExactScreen {
     return {rounded(x(p) / scale(p)), rounded(y(p) / scale(p))};
   }
 
-  /// What of a polygon lies within the guard band and from `near` on.
+  /// Keeps the part of a polygon within the guard band and from `near` on.
   void clip(std::vector<PrecisePoint>& polygon, double near) const {
     const Real limit = kGuard;
     cut(polygon, [&](const PrecisePoint& p) { return p.w - Real(near); });
@@ -66,12 +66,12 @@ class ExactScreen {
     cut(polygon, [&](const PrecisePoint& p) { return limit * scale(p) - x(p); });
   }
 
-  /// What of it lies no further than `end`.
+  /// Keeps the part of a polygon no further than `end`.
   static void cut_behind(std::vector<PrecisePoint>& polygon, const Real& end) {
     cut(polygon, [&](const PrecisePoint& p) { return end - p.w; });
   }
 
-  /// What of it lies in the picture and from `near` on.
+  /// Keeps the part of a polygon in the picture and from `near` on.
   void to_picture(std::vector<PrecisePoint>& polygon, double near) const {
     cut(polygon, [&](const PrecisePoint& p) { return p.w - Real(near); });
     cut(polygon, [&](const PrecisePoint& p) { return y(p); });
@@ -88,7 +88,7 @@ class ExactScreen {
   static Real half(int size) { return Real(size) / 2; }
   [[nodiscard]] Real half_height() const { return Real(camera_.half_height); }
 
-  // Of a polygon what has inside(p) >= 0.
+  // Keeps the part of a polygon that has inside(p) >= 0.
   template <class Inside>
   static void cut(std::vector<PrecisePoint>& polygon, Inside inside) {
     std::vector<PrecisePoint> kept;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a frame's translucent spans say of each face at each pixel.
+// Values of each face at each pixel, by a frame's translucent spans.
 #pragma once
 
 #include <array>

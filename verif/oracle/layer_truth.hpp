@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rays say of translucent faces: all faces of the unsnapped scene that a pixel's ray meets, by brute force in
-// double precision, sorted by distance and blended. Nothing of kage's geometry, order or core goes in. The picture's
+// The truth about translucent faces, by rays: all faces of the unsnapped scene that a pixel's ray meets, by brute force
+// in double precision, sorted by distance and blended. Nothing of kage's geometry, order or core goes in. The picture's
 // colours are numbers of faces, so that another order shows.
 //
-// Where the picture differs, rays a step of the snap away decide: it moves what a pixel sees by less than that, so if
-// none of them sees what the picture shows, it is wrong.
+// Where the picture differs, rays a step of the snap away decide, because the snap moves what a pixel sees by less than
+// that. If none of them sees what the picture shows, the picture is wrong.
 #pragma once
 
 #include <fmt/format.h>
@@ -115,11 +115,11 @@ class LayerTruth {
   }
 
   /// Whether moving every vertex by half a step can make pixel (x, y) show `shown`. Moved so, a face gains or loses no
-  /// more than what lies within a step of its outline, each face for itself; and depths are those of a place within a
-  /// step. Rays at some places meet all faces but those that are thinner than the rays are apart, as one that is seen
-  /// nearly edge-on: snapped, it may be a step wide. What of such a face lies within a step has its depths, as its
+  /// more than the parts within a step of its outline, each face for itself; and depths are those of a place within a
+  /// step. Rays at some places meet all faces but those that are thinner than the rays are apart. A face that is seen
+  /// nearly edge-on is so thin, and snapped, it may be a step wide. Its part within a step gives its depths, as its
   /// plane may have any there. Where a face is steep, its order among others changes between two such rays; those
-  /// through the corners of what lies within a step see it at its nearest and its furthest.
+  /// through the corners of its part within a step see it at its nearest and its furthest.
   [[nodiscard]] bool possible(int x, int y, std::uint32_t background, std::uint32_t shown) const {
     constexpr int kSide = 5;
     std::vector<glm::dvec2> places;
@@ -162,8 +162,9 @@ class LayerTruth {
   }
 
  private:
-  /// A face within a step of a pixel's centre, the distances of what of it lies there, and, in pixels, the corners of
-  /// what lies there, a thousandth of the way to its middle, so that a ray there meets the face.
+  /// A face within a step of a pixel's centre, with its part there: the least and the greatest distance, and the
+  /// corners in pixels. The corners are moved a thousandth of the way to the part's middle, so that a ray there meets
+  /// the face.
   struct Near {
     std::uint32_t face;
     std::uint8_t alpha;
@@ -176,7 +177,7 @@ class LayerTruth {
     const Camera& c = f_->camera;
     const double unit = 2 * c.half_height / height_;
     const double step = step_ / 256.0;
-    // What lies between these sides, to the right of the first and so on, is seen within a step.
+    // The area between these sides, to the right of the first and so on, is seen within a step.
     const double left = (x + 0.5 - step - width_ / 2.0) * unit;
     const double right = left + 2 * step * unit;
     const double top = (height_ / 2.0 - (y + 0.5 - step)) * unit;
@@ -215,7 +216,7 @@ class LayerTruth {
     return found;
   }
 
-  /// What of a convex outline is not below 0.
+  /// Keeps the part of a convex outline where `distance` is not below 0.
   template <class Distance>
   static void cut(std::vector<glm::dvec3>& part, const Distance& distance) {
     std::vector<glm::dvec3> rest;

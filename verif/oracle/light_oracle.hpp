@@ -21,7 +21,7 @@ inline Rational turn(const ExactPoint& a, const ExactPoint& b, const ExactPoint&
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-/// What of a convex polygon lies left of the way from a to b; empty if it has no area.
+/// The part of a convex polygon left of the way from a to b; empty if it has no area.
 inline ExactPolygon left_of(const ExactPolygon& polygon, const ExactPoint& a, const ExactPoint& b) {
   ExactPolygon out;
   bool inside = false;

@@ -56,7 +56,7 @@ inline Config for_one_sample(Config c) {
   return c;
 }
 
-/// Of each pixel, whether the sample's volumes cover what is seen there, by a core for one light.
+/// For each pixel, whether the sample's volumes cover the surface that is seen there, by a core for one light.
 inline std::vector<std::uint8_t> sample_shadow(const FrameGeometry& g, const Config& config, std::uint32_t sample) {
   Config c = for_one_sample(config);
   c.smooth = c.color_frac = 0;
@@ -72,7 +72,7 @@ inline std::vector<std::uint8_t> sample_shadow(const FrameGeometry& g, const Con
   return shadowed;
 }
 
-/// Of each pixel and light, how many of the light's samples are shadowed.
+/// For each pixel and light, how many of the light's samples are shadowed.
 inline std::vector<std::array<std::uint32_t, 8>> shadow_counts(const FrameGeometry& g, const Config& config) {
   std::vector<std::array<std::uint32_t, 8>> counts(static_cast<std::size_t>(g.width) *
                                                    static_cast<std::size_t>(g.height));
@@ -83,7 +83,7 @@ inline std::vector<std::array<std::uint32_t, 8>> shadow_counts(const FrameGeomet
   return counts;
 }
 
-/// Of each pixel the index of the polygon that it shows, or ~0.
+/// For each pixel, the index of the polygon that it shows, or ~0.
 inline std::vector<std::uint32_t> seen_polygons(const FrameGeometry& g, const Config& config) {
   Config c = for_one_sample(config);
   c.smooth = c.color_frac = 0;

@@ -106,8 +106,8 @@ bool Oracle::nearer(const ScreenPlane& a, const ScreenPlane& b, int x) const {
 }
 
 // Each depth is off by (k + 1) 2^-(Z_FRAC+1) at most, k <= x, and is then rounded to a whole LSB, by 1/2 at most. If
-// vertices move, what a polygon shows at a pixel is what it showed at most half a step away in x and in y, since the
-// same mix of vertices that now lies there lay there before: that changes its depth by up to (|a| + |b|) step / 512.
+// vertices move, a polygon shows at a pixel what it showed at most half a step away in x and in y, since the same mix
+// of vertices lay there before. That changes its depth by up to (|a| + |b|) step / 512.
 Oracle::Sure Oracle::surely_nearer(const ScreenPlane& a, const ScreenPlane& b, int x, Errors errors) const {
   const Int128 unit = static_cast<Int128>(1) << kPlaneFrac;
   Int128 bound = unit + 2 * (((static_cast<Int128>(x) + 1) << kPlaneFrac) >> (config_.z_frac + 1));

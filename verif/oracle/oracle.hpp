@@ -20,7 +20,7 @@ namespace kage {
 /// How far apart the snapped coordinates of a frame are, in 1/256 pixel.
 inline int snap_step(const FrameGeometry& g) { return 1 << (8 - g.sub_bits); }
 
-/// What is true at a pixel.
+/// The truth at a pixel.
 struct OraclePixel {
   std::int32_t surface = -1;  ///< nearest drawn polygon, the first in draw order among equals; -1: none
   bool shadowed = false;      ///< the surface's point is inside some volume
@@ -39,7 +39,7 @@ enum class Errors : std::uint8_t {
   depth_and_snap,  ///< also the snap: every vertex moved by up to half a step of it in x and in y
 };
 
-/// What a pixel may show while every error stays within its bound.
+/// Shadows that a pixel may have while every error stays within its bound.
 struct PossibleShadow {
   bool lit = false;
   bool shadowed = false;
@@ -93,7 +93,7 @@ class Oracle {
   [[nodiscard]] std::array<PossibleCount, 8> possible_counts(int x, std::uint32_t surface, Errors errors) const;
 
   /// Sum over the volume of winding numbers with factor of all faces and the near cap at the pixel, whatever their
-  /// depth; with the far end it is 0, so without it it is minus what the far end covers.
+  /// depth. With the far end it is 0, so without it the sum is minus what the far end covers.
   [[nodiscard]] int sum_of_toggles(std::uint32_t volume, int x) const;
 
  private:

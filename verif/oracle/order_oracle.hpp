@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a tree and an order must be, in rational numbers, from vertices, outlines and cuts alone: no arithmetic is
-// shared with the library.
+// Rules for a tree and an order, in rational numbers, from vertices, outlines and cuts alone: no arithmetic is shared
+// with the library.
 #pragma once
 
 #include <algorithm>
@@ -97,9 +97,9 @@ class OrderOracle {
     return result;
   }
 
-  /// Follows the ray from `eye` through `target` and says how many of the pairs of fragments that it meets are drawn in
-  /// the wrong order. -1: it meets an outline or a cut, where there is nothing to be said. -2: a face's point does not
-  /// lie in exactly one of its fragments.
+  /// Follows the ray from `eye` through `target`. Returns how many of the pairs of fragments that it meets are drawn in
+  /// the wrong order. Returns -1 if it meets an outline or a cut, where nothing can be said. Returns -2 if a face's
+  /// point does not lie in exactly one of its fragments.
   int wrong_pairs(const Eye& eye, const Point& target, std::span<const std::uint32_t> order, int* pairs) const {
     const Point at = exact(eye.at);
     Point way = at;
@@ -138,7 +138,7 @@ class OrderOracle {
     for (std::size_t i = 0; i < hits.size(); ++i)
       for (std::size_t j = i + 1; j < hits.size(); ++j) {
         ++*pairs;
-        // Of one plane, so of one node, are only those at one distance.
+        // Only fragments at one distance are of one plane, so of one node.
         if (hits[i].distance < hits[j].distance) ++wrong;
         if (hits[i].place == hits[j].place && hits[i].distance != hits[j].distance) ++wrong;
       }

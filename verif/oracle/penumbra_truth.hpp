@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What points that stand for an area light are worth: how much of a light a straight edge truly keeps out, how many of
-// the points, and how even the points are. Nothing of how kage chooses the points goes in.
+// How well points stand for an area light: how much of a light a straight edge truly keeps out, how many of the points,
+// and how even the points are. Nothing of how kage chooses the points goes in.
 #pragma once
 
 #include <algorithm>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What rays say of an unsnapped scene, in double precision and by brute force: the surface that a pixel's centre sees,
-// and whether a face other than its own stands between it and the light. Nothing of kage's geometry goes in. Where the
-// picture differs, the oracle says whether moving every snapped vertex by half a step of the snap can make the rays'
-// answer of kage's geometry; if not, it is wrong.
+// The truth about an unsnapped scene by rays, in double precision and by brute force. It is the surface that a pixel's
+// centre sees, and whether a face other than its own stands between it and the light. Nothing of kage's geometry goes
+// in. Where the picture differs, the oracle says whether moving every snapped vertex by half a step of the snap can
+// make the rays' answer of kage's geometry; if not, the picture is wrong.
 #pragma once
 
 #include <fmt/format.h>

@@ -146,7 +146,7 @@ class SimpleCore : private SimpleFrame {
     return good;
   }
 
-  // What a token of each kind does; false as step().
+  // Action of a token of each kind; false as step().
   bool take(Kind kind) {
     if (due_ && kind != Kind::SEG && kind != Kind::TREE && kind != Kind::END) return refuse(ErrorCode::ORDER);
     using Take = bool (SimpleCore::*)();

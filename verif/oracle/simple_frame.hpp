@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What SimpleCore knows of a frame, and the arithmetic of docs/stream.md: no shared code but the bit positions.
+// A frame's state in SimpleCore, and the arithmetic of docs/stream.md: no shared code but the bit positions.
 #pragma once
 
 #include <algorithm>

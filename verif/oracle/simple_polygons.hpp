@@ -31,7 +31,7 @@ class SimplePolygons {
 
   SimplePolygons(const Config& c, std::int64_t width) : c_(c), l_(c), width_(width) {}
 
-  /// What is to be done with a token.
+  /// The next step with a token.
   enum class Verdict {
     done,     ///< nothing more
     itself,   ///< it is a token of the span level, whose turn it is now
@@ -254,7 +254,7 @@ class SimplePolygons {
     return ends(s.kind, p.place, run, make) && make(s);
   }
 
-  /// What is over before a span at this place; then the span belongs to its volume.
+  /// Ends the volume and the sample that are over before a span at this place; then the span belongs to its volume.
   bool ends(Kind kind, const Place& place, const Run& run, const Make& make) {
     if (kind == Kind::OP) return true;
     if (kind == Kind::TP) return volumes_over(make);

@@ -279,7 +279,7 @@ void Coverage::failed(const FrameStatus& status, std::span<const std::uint32_t> 
   hit(error_[static_cast<std::size_t>(status.error)]);
 }
 
-// What a span of at least a pixel brings.
+// Points that a span of at least a pixel reaches.
 void Coverage::ramps(const SpanToken& s, bool colored) {
   const int count = s.xr - s.xl;
   hit_ramp(depth_, s.z, s.dz, count, depth_range());
@@ -309,7 +309,8 @@ void Coverage::volume(const Token& t, const LineView& line) {
   for (int x = t.span.xl; x < t.span.xr; ++x) hit(inside_at_ev_, ((line.pixel(x).dsf + line.bias()) & all) != 0);
 }
 
-// What docs/stream.md calls in shadow: by the counters where there are any, else by the flag, else by the sum.
+// Whether a pixel is in shadow, as docs/stream.md has it: by the counters where there are any, else by the flag, else
+// by the sum.
 bool Coverage::in_shadow(const PixelState& p, std::uint32_t bias) const {
   if (config_.count_bits > 0) return p.counts != decltype(p.counts){};
   if (config_.fsf != 0) return p.fsf != 0;

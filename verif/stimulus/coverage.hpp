@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What frames reach of all that a configuration has: kinds of tokens, borders and extremes of their fields, errors.
+// Coverage by frames of all that a configuration has: kinds of tokens, borders and extremes of their fields, errors.
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ struct CoveragePoint {
 /// Counts, by what the golden core does with the frames' words.
 class Coverage : private CoreObserver {
  public:
-  /// Of frames at that level.
+  /// For frames at that level.
   explicit Coverage(const Config& config, Level level = Level::spans);
 
   /// A frame, its words in pieces.
   void words(std::span<const std::uint32_t> piece);
   void end_frame();
 
-  /// Those of other frames.
+  /// Adds the counts of other frames.
   void absorb(const Coverage& other);
 
   [[nodiscard]] std::uint64_t frames() const { return frames_; }
@@ -95,7 +95,7 @@ class Coverage : private CoreObserver {
   std::uint64_t frames_ = 0;
   bool any_words_ = false;
 
-  // Of the frame:
+  // State of the frame:
   bool state_told_ = false;  // what came before the first line
   bool shade_ = false;
   std::vector<TableToken> table_;

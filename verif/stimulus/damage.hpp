@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What can happen to a frame's words on the way: anywhere, or to the tokens of a tree or of light samples.
+// Damage to a frame's words on the way: anywhere, or to the tokens of a tree or of light samples.
 #pragma once
 
 #include <array>
@@ -59,9 +59,9 @@ class TokenPlaces {
   bool whole_ = false;
 };
 
-/// Damage a frame, once to three times: cut it, lengthen it, drop or double a word, flip a bit anywhere, in a kind or
-/// in the header, put noise in a word's place, make it a little wider, narrower, higher or lower. It may even survive
-/// that.
+/// Damage a frame, once to three times. Cut it, lengthen it, drop or double a word, flip a bit anywhere, in a kind or
+/// in the header, or put noise in a word's place. Or make it a little wider, narrower, higher or lower. It may even
+/// survive that.
 void damage(Random& random, std::vector<std::uint32_t>& words);
 
 /// Damage that samples, classes and the light table are made for: one to three tokens that are not what they should be.

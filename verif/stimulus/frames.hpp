@@ -12,7 +12,7 @@
 
 namespace kage::verif {
 
-/// What a frame is made of.
+/// Contents of a frame.
 struct FrameStyle {
   int most_opaque = 8;       ///< OPs of a line
   int most_volumes = 3;      ///< of a line, with FSF
@@ -22,8 +22,8 @@ struct FrameStyle {
   /// Spans as a port takes them: accumulators may wrap, which a file may not have, and many spans meet at the same few
   /// pixels and depths, which is what forwarding is for.
   bool port = false;
-  /// With a table: every share is all of a colour, and so many samples, spread over the lights, put a line in shadow
-  /// from end to end, in place of others; that share of the lines.
+  /// With a table: every share is all of a colour. So many samples, spread over the lights, put a line in shadow from
+  /// end to end, in place of others; `dark_lines` is the share of such lines.
   int dark_samples = 0;
   double dark_lines = 1;
   /// Frames with a tree, where the configuration has units: 0 none, 1 all that are narrow enough.

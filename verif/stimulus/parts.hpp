@@ -47,7 +47,7 @@ class SegmentPlaces {
 };
 
 /// The frame with those of its lines alone for which `keeps` is true: height and EOLs are numbered anew, and SEGs go
-/// with their line. What stands before the first line stays. A frame that would have no line is given back as it is.
+/// with their line. Tokens before the first line stay. A frame that would have no line is given back as it is.
 Words only_lines(const Config& config, const Words& words, const std::function<bool(std::size_t line)>& keeps);
 
 }  // namespace kage::verif

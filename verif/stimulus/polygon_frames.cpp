@@ -206,7 +206,7 @@ class RandomPolygons {
   }
 
   /// Moves an edge that begins on line y and reaches line `bottom`, across and by a pixel at most, so that the step to
-  /// a line between is a tie, if a few slopes near its own have one. The outline then has a gap.
+  /// a line between is a tie. It does so if a few slopes near its own have one. The outline then has a gap.
   void to_tie(PolygonToken& t, int y, int bottom) {
     if (bottom < y + 2) return;
     const int line = random_->in(y + 1, std::min(bottom - 1, y + 8));

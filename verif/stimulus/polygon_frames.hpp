@@ -11,7 +11,7 @@
 
 namespace kage::verif {
 
-/// What a frame at the polygon level is made of.
+/// Contents of a frame at the polygon level.
 struct PolygonStyle {
   /// Spans that come as tokens, and the tree. With `port`, planes and edges as a port takes them: sums may wrap along a
   /// span, and an edge may go on past its end.

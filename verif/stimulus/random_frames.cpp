@@ -111,7 +111,7 @@ Words polygon_frame(Random& random, const Config& c, std::uint32_t number, int w
   return words;
 }
 
-/// What sound_frame() makes at the polygon level.
+/// The frame of sound_frame() at the polygon level.
 Words sound_polygons(Random& random, const Config& c, std::uint32_t number, int width) {
   PolygonStyle style;
   style.spans.port = random.chance(0.8);

@@ -15,9 +15,9 @@
 
 namespace kage::verif {
 
-/// A frame that obeys every rule of a port: of any size that the configuration takes, mostly small, so that many are
-/// run; crowded or bare, with spans that meet at few pixels and depths, with accumulators that wrap. At the polygon
-/// level a configuration with ACTIVE > 0 is needed.
+/// A frame that obeys every rule of a port. It has any size that the configuration takes, mostly small, so that many
+/// are run. It is crowded or bare, with spans that meet at few pixels and depths, with accumulators that wrap. At the
+/// polygon level a configuration with ACTIVE > 0 is needed.
 std::vector<std::uint32_t> sound_frame(Random& random, const Config& c, std::uint32_t number,
                                        Level level = Level::spans);
 
@@ -36,19 +36,19 @@ std::vector<std::uint32_t> wide_frame(Random& random, const Config& c, std::uint
 std::vector<std::uint32_t> damaged_frame(Random& random, const Config& c, std::uint32_t number,
                                          Level level = Level::spans);
 
-/// What may be in a core when the next frame comes: a sound frame, a damaged one, or one of many lines of a pixel or
-/// two with nothing on them, of which more are under way at a time than of any other.
+/// A frame that may be in a core when the next one comes: a sound frame, a damaged one, or one of many lines of a pixel
+/// or two with nothing on them. More lines of the last kind are under way at a time than of any other.
 std::vector<std::uint32_t> earlier_frame(Random& random, const Config& c, std::uint32_t number,
                                          Level level = Level::spans);
 
-/// What random frames are like.
+/// Kinds of random frames.
 enum class Manner {
   sound,    ///< sound_frame()
   damaged,  ///< damaged_frame()
   mixed     ///< either, as likely; some meet a core that was just reset, or is still at work on another frame
 };
 
-/// What each manner is asked for by.
+/// Name by which each manner is asked for.
 struct RandomSource {
   const char* name;
   Manner manner;
@@ -69,8 +69,8 @@ class RandomFrames {
   RandomFrames(const Config& config, Manner manner, std::uint64_t seed, Level level = Level::spans)
       : config_(config), manner_(manner), seed_(seed), level_(level) {}
 
-  /// Of each kSizes frames one is tall and one is wide, unless it is to be damaged. A short run has none, so that it is
-  /// quick.
+  /// Among each kSizes frames one is tall and one is wide, unless it is to be damaged. A short run has none, so that it
+  /// is quick.
   static constexpr int kSizes = 60;
   static constexpr int kTall = 59;
   static constexpr int kWide = 29;
@@ -78,7 +78,7 @@ class RandomFrames {
   /// The words of frame `index`.
   [[nodiscard]] std::vector<std::uint32_t> words(int index) const;
 
-  /// Of mixed frames, the frame that may go ahead of each, by its number: earlier_frame(). Of others nothing.
+  /// The frame that may go ahead of each mixed frame, by its number: earlier_frame(). Other manners have none.
   [[nodiscard]] std::function<std::vector<std::uint32_t>(int index)> prelude() const;
 
  private:

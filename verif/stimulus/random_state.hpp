@@ -59,7 +59,7 @@ class RandomTree {
     count += units.size();
   }
 
-  /// What is left of line y's segments, and some of the next line's.
+  /// Writes the rest of line y's segments, and some of the next line's.
   void write_segments(TokenWriter& w, int y, std::uint64_t& count) {
     const double eager = random_->chance(0.3) ? 0 : random_->chance(0.2) ? 1 : random_->real(0, 1);
     std::vector<std::size_t> units;  // a place for each segment that may come

@@ -25,7 +25,7 @@ class SegmentCutter {
   SegmentCutter(const Config& c, const Layout& layout, const Words& header, std::uint32_t step, bool left)
       : config_(c), layout_(layout), places_(header), width_(width_of(header)), step_(step), left_(left) {}
 
-  /// What becomes of a FACE or SEG, nothing if it goes.
+  /// The FACE or SEG after the cut, nothing if it goes.
   std::optional<Words> cut(const Words& token) {
     const SegmentToken s = decode(config_, layout_, token).segment;
     Unit& unit = units_[s.unit];

@@ -62,7 +62,8 @@ class Chooser {
       for (const verif::CoveragePoint& p : coverage.points()) line.points.push_back(p.frames > 0);
       lines_.push_back(std::move(line));
     }
-    // What all lines of the frame share: the sum of the lines alone has it once a line, the frame has it once.
+    // Words that all lines of the frame share: the sum of the lines alone has them once a line, the frame has them
+    // once.
     const std::uint64_t sum = std::accumulate(lines_.end() - height, lines_.end(), std::uint64_t{0},
                                               [](std::uint64_t s, const Line& l) { return s + l.words; });
     base_.back() = height > 1 ? (sum - words.size()) / static_cast<std::uint64_t>(height - 1) : kHeaderWords + 1;

@@ -22,7 +22,7 @@ struct WrongPlace {
   std::optional<std::uint32_t> actual;  ///< none: the capture has digits x or z
 };
 
-/// What is to be said of a capture.
+/// Verdict on a capture.
 struct CaptureVerdict {
   std::uint64_t compared = 0;  ///< pixels, or signatures
   std::uint64_t wrong = 0;     ///< of them

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kStalls = 25;  // per cent of clocks in which each stream stops
 
-/// What is to be reached, and by which frames it is.
+/// Aims to be reached, and the frames that reach each.
 class Aims {
  public:
   void reach(const std::string& name, int frame) { frames_of_[name].push_back(frame); }
@@ -121,8 +121,8 @@ Cover cover(FrameSource& source, const std::filesystem::path& library, std::uint
   for (const std::size_t i : order)
     if (chosen[i] && lines.alone(chosen)[i] == 0 && points.alone(chosen)[i] == 0) chosen[i] = false;
 
-  // What counts is what the chosen frames reach when they follow each other, which may be more than each alone or less.
-  // For what is lost so, the smallest frame that has it is taken too.
+  // The chosen frames count as they follow each other, where they may reach more than each alone, or less. If an aim is
+  // lost so, the smallest frame that has it is taken too.
   const auto play = [&] {
     std::vector<std::vector<std::uint32_t>> held;
     for (std::size_t i = 0; i < count; ++i)

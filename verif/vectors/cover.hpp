@@ -20,11 +20,11 @@ struct Cover {
   std::uint64_t points = 0;            ///< of stimulus/coverage.hpp: kinds of tokens and errors that are reached
 };
 
-/// Of a source's frames so few that they reach all lines and branches of the RTL, all kinds of tokens and all errors
-/// that all of them reach: time after time that frame which reaches most for its words, then none that the others make
-/// needless. Each is tried alone, then all chosen ones in a row, on a core out of reset whose streams stop in a quarter
-/// of the clocks, by `seed`. `library` is a model of the source's configuration that counts lines. Throws as
-/// FrameSource::frame().
+/// A few frames of a source that reach as much as all of them do: lines and branches of the RTL, kinds of tokens, and
+/// errors. Time after time the frame that reaches most for its words is chosen; then frames that the others make
+/// needless are dropped. Each is tried alone, then all chosen ones in a row, on a core out of reset whose streams stop
+/// in a quarter of the clocks, by `seed`. `library` is a model of the source's configuration that counts lines. Throws
+/// as FrameSource::frame().
 Cover cover(FrameSource& source, const std::filesystem::path& library, std::uint64_t seed,
             const std::function<void(int frame)>& progress);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kTries = 6000;  // damaged frames: of each error some hundreds, of the rarest a few
 
-/// What a frame costs: words in, pixels out. One with a line before the error and one behind it, which is background
+/// Cost of a frame: words in, pixels out. A frame with a line before the error and one behind it, which is background
 /// then, tries more than one without.
 std::pair<bool, std::uint64_t> cost_of(const MalformedFrame& f) {
   const bool within = f.status.line > 0 && f.status.line < static_cast<std::uint32_t>(f.status.height);

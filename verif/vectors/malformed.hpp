@@ -17,10 +17,10 @@ struct MalformedFrame {
   Level level = Level::spans;
 };
 
-/// For each error that a core of this configuration can meet the smallest of many damaged frames (stimulus/damage.hpp)
-/// that has it behind its first line and before its last, else the smallest that has it, in the order of the codes;
-/// fewer where chance brought none. Frames at the span level, then, for a core with a front end, as many at the polygon
-/// level. Follows from configuration and seed alone.
+/// Frames for each error that a core of this configuration can meet, in the order of the codes; fewer where chance
+/// brought none. For an error it is the smallest of many damaged frames (stimulus/damage.hpp) that has it behind its
+/// first line and before its last, else the smallest that has it. Frames at the span level, then, for a core with a
+/// front end, as many at the polygon level. Follows from configuration and seed alone.
 std::vector<MalformedFrame> malformed_frames(const Config& config, std::uint64_t seed);
 
 }  // namespace kage::vectors

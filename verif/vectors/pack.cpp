@@ -45,7 +45,7 @@ Json frame_json(const PackFrame& f) {
   return j;
 }
 
-/// What is read of a manifest, with where it is in messages.
+/// Reads values of a manifest, and knows their place for messages.
 class Reader {
  public:
   Reader(const Json& json, std::string where) : json_(&json), where_(std::move(where)) {
@@ -121,7 +121,7 @@ PackFrame frame_of(const Reader& r) {
   return f;
 }
 
-/// What the manifest says of all frames together is what they come to.
+/// Checks the manifest's sums against the frames' own.
 void check_sums(const Reader& r, const Pack& pack) {
   const auto check = [&](const char* key, std::uint64_t come_to) {
     const std::uint64_t said = r.number(key, ~std::uint64_t{0});

@@ -76,8 +76,8 @@ struct Pack {
 /// The paths of all files of the pack in that folder, the manifest among them.
 std::vector<std::string> files_of(const std::filesystem::path& folder, const Pack& pack);
 
-/// What the registers must say behind the frames that settle, by how the frames end; behind the last one all constants
-/// too. The registers are those of a core that got nothing but these frames since reset.
+/// Expected values of the registers behind the frames that settle, by how the frames end; behind the last one all
+/// constants too. The registers are those of a core that got nothing but these frames since reset.
 std::vector<RegisterRead> register_reads(const Config& config, std::span<const PackFrame> frames);
 
 /// The bytes of each file that grows with the frames, before anything is written; the others have some 30 kB, and

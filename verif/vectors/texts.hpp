@@ -31,7 +31,7 @@ std::string registers_hex(const Pack& pack);
 std::string verilog_header(const Pack& pack);
 /// The same for C, and frames, registers and signatures as arrays. `signatures`: of all lines, in order.
 std::string c_header(const Pack& pack, std::span<const std::uint32_t> signatures);
-/// What the pack is and how it is run.
+/// A description of the pack and of how to run it.
 std::string readme(const Pack& pack);
 
 }  // namespace kage::vectors

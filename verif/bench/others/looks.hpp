@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What all renderers of the benchmark share: the flat colour of a face as kage has it, worked out when it is first
+// Parts shared by all renderers of the benchmark: the flat colour of a face as kage has it, worked out when it is first
 // asked for, and the picture that they fill.
 #pragma once
 
@@ -21,7 +21,8 @@ namespace kage::verif {
 /// Three bytes a pixel, lines from top to bottom.
 using Picture = std::vector<std::uint8_t>;
 
-/// What is drawn: the picture, or black where there is shadow, white where a face has none, grey where there is none.
+/// Content of the drawing: the picture, or the shadow alone: black in shadow, white on a face without shadow, grey
+/// where there is no face.
 enum class Shown { picture, shadow };
 
 inline constexpr std::array<std::uint8_t, 3> kShadowBackground{128, 128, 128};

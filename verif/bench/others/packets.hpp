@@ -15,7 +15,7 @@
 
 namespace kage::verif {
 
-/// What Embree calls the rays of a packet of N.
+/// Embree's types and functions for a packet of N rays.
 template <int N>
 struct Packet {
   static constexpr int kAcross = 4;
@@ -193,7 +193,7 @@ class Tracer {
     }
   }
 
-  /// What the rays have met, and rays from there to the light; whether there are any.
+  /// Takes the faces that the rays have met, and makes rays from there to the light. True if there is such a ray.
   bool secondary(Block& b) const {
     bool any = false;
     for (std::size_t i = 0; i < N; ++i) {

@@ -11,8 +11,9 @@
 
 namespace kage::verif {
 
-/// What a pixel's stencil counts: volumes that end behind the surface, which is right wherever the eye is and needs
-/// both caps; or those that begin before it, which needs sides alone and an eye in no shadow.
+/// Volumes that a pixel's stencil counts. With depth_fail those that end behind the surface: this is right wherever the
+/// eye is, but needs both caps. With depth_pass those that begin before the surface: this needs the sides alone, but an
+/// eye in no shadow.
 enum class StencilWay { depth_fail, depth_pass };
 
 /// A frame's triangles, in single precision and world space. To be used again, so that its memory is kept.

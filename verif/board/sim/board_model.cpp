@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t kNever = ~std::uint64_t{0};
 
-// What the model prints, which is what a broken rule says of itself; one model runs at a time in a thread.
+// Text that the model prints, which is the message of a broken rule. One model runs at a time in a thread.
 thread_local std::string said;
 
 }  // namespace

@@ -34,11 +34,11 @@ typedef struct {
   size_t (*receive)(kage_board*, uint8_t* bytes, size_t room, uint64_t deadline);
   /** A pressed button resets the board until it is let go. */
   void (*button)(kage_board*, int pressed);
-  /** Presses it for so many picoseconds, which pass. What the board says meanwhile is there for receive(). */
+  /** Presses it for so many picoseconds, which pass. Bytes that the board sends meanwhile are there for receive(). */
   void (*tap)(kage_board*, uint64_t picoseconds);
   void (*video)(kage_board*, kage_board_video, void* context);
   uint32_t (*leds)(const kage_board*);
-  /** What stopped the simulation: a rule that a chip saw broken; empty: nothing. Then time stands still. */
+  /** The broken rule at which a chip stopped the simulation, so that time stands still; empty: none. */
   const char* (*stopped)(const kage_board*);
 } kage_board_functions;
 

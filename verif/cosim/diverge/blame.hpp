@@ -10,7 +10,7 @@
 
 namespace kage::cosim {
 
-/// What is known of a difference.
+/// Known facts of a difference.
 struct Clue {
   std::optional<ExpectedEvent> expected;  ///< none: nothing more was to come
   std::optional<kage_rtl_event> actual;   ///< none: it never came

@@ -21,7 +21,7 @@ constexpr std::uint64_t kFurther = 20000;
 // The golden core goes on where the RTL has lost its thread; what it expects is kept up to 256 MiB.
 constexpr std::size_t kMostPending = (std::size_t{256} << 20) / sizeof(ExpectedEvent);
 
-// What is found is looked for again with so many other initial states.
+// A divergence that was found is looked for again with this many other initial states.
 constexpr std::uint64_t kOtherStates = 2;
 
 struct Found {
@@ -100,7 +100,8 @@ Found search_frame(RtlCore& rtl, int frame, const Feed& feed, const Config& conf
   return found;
 }
 
-// Whether two searches have seen the same thing at the same time. What is not looked at of an event may be anything.
+// Whether two searches have seen the same thing at the same time. Values of an event that are not compared may be
+// anything.
 bool alike(const Found& a, const Found& b) {
   const auto place = [](const std::optional<kage_rtl_event>& e, bool which) {
     return e ? std::tuple(e->stage, e->unit, which ? e->value[at::part::part] : 0, e->clock)
@@ -193,8 +194,8 @@ void describe_unexpected(Divergence& d, const Found& found) {
   d.actual = describe(d.stage);
 }
 
-// What is wrong by its own inputs is wrong whatever came before it, so it stands for all that differs; what the stages
-// say of place and token remains.
+// A module that is wrong by its own inputs is wrong whatever came before it, so its output stands for all that differs.
+// Place and token stay as the stages tell them.
 void describe_part(Divergence& d, const Config& config, const kage_rtl_event& part) {
   d.stage = Stage::part;
   d.module = part_name(config, part);
@@ -203,7 +204,7 @@ void describe_part(Divergence& d, const Config& config, const kage_rtl_event& pa
   d.actual = fmt::format("{:#x}", part.value[at::part::actual]);
 }
 
-// Of the frame that RtlOptions::prelude puts ahead of this one.
+// The divergence of the frame that RtlOptions::prelude puts ahead of this one.
 std::optional<Divergence> ahead_of(int frame, const Config& config, const ReplayOptions& options) {
   const Replay alone = replay_ahead(frame, options);
   auto d = find_divergence(frame, alone.feed, config, alone.options);
@@ -215,7 +216,8 @@ std::optional<Divergence> ahead_of(int frame, const Config& config, const Replay
 
 std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
                                           const ReplayOptions& options) {
-  // What a frame before has left in the core is mostly of the very last one; each time twice as many are taken.
+  // The state that earlier frames leave in the core comes mostly from the very last one. So the search goes one
+  // frame back, then each time twice as many.
   const FrameSteps& steps = options.steps;
   const int before = (frame - steps.first) / steps.step;
   int from = frame;
@@ -244,7 +246,8 @@ std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Con
     describe_unexpected(d, found);
   }
   if (found.mismatch || found.unexpected) d.module = found.ports_alone ? "kage_top" : blame(config, found.clue);
-  // What has no handshake waits for nobody; and who waits is not known where the handshakes' monitor does not fit.
+  // A stage without a handshake waits for nobody. Where the handshakes' monitor does not fit, it is not known who
+  // waits.
   const bool waits = found.handshakes_known && d.stage != Stage::claim && d.stage != Stage::error &&
                      d.stage != Stage::face && d.stage != Stage::table && d.stage != Stage::state &&
                      d.stage != Stage::end;

@@ -16,8 +16,8 @@
 
 namespace kage::cosim {
 
-/// Where the RTL first departs, in the order in which a token passes the stages, not that of clocks: what a wrong stage
-/// does to those behind it comes later in that order, however early it shows.
+/// Where the RTL first departs. First is in the order in which a token passes the stages, not in that of clocks. A
+/// wrong stage's effects on the stages behind it come later in that order, however early they show.
 struct Divergence {
   int frame = 0;
   int from = 0;   ///< the first frame of the replay that showed it
@@ -48,7 +48,7 @@ struct Divergence {
 std::optional<Divergence> find_divergence(int frame, const Feed& feed, const Config& config,
                                           const ReplayOptions& options);
 
-/// What the RTL did to a pixel, where the golden model's history has the same.
+/// An event of the RTL at a pixel, where the golden model's history has the same event.
 struct RtlTouch {
   std::uint32_t token = 0;
   std::uint32_t nth = 0;    ///< as PixelTouch::nth

@@ -80,8 +80,8 @@ void EventSearch::take(std::span<const kage_rtl_event> events) {
   // Units and tree work on a line as soon as its segments are there; its TREE says what they should have made.
   const std::vector<kage_rtl_event> ahead = std::exchange(ahead_, {});
   for (const kage_rtl_event& a : ahead) take(a);
-  // Events of a clock have no order. That of the token that frame_control takes goes first: the others are held against
-  // it.
+  // Events of a clock have no order. The event of the token that frame_control takes goes first, because the others are
+  // held against it.
   for (auto begin = events.begin(); begin != events.end();) {
     const auto end = std::find_if(begin, events.end(), [&](const auto& a) { return a.clock != begin->clock; });
     for (const bool token : {true, false})
@@ -187,8 +187,8 @@ void EventSearch::offer(const Mismatch& m) {
   if (!first_ || m.order() < first_->order()) first_ = m;
 }
 
-// An event comes of the newest token or of one before it, so a mismatch of a later token is behind it; of the same
-// token only the token itself, which is the first thing of it, is surely before.
+// An event belongs to the newest token or to one before it, so a mismatch of a later token comes behind it. Within one
+// token, only the event of the token itself surely comes first.
 bool EventSearch::unexpected_leads() const {
   if (!unexpected_ || !first_) return false;
   if (!tokens_watched_) return unexpected_->clock < first_->clock;  // of which token it comes is not known
@@ -197,7 +197,7 @@ bool EventSearch::unexpected_leads() const {
          (nth == unexpected_token_ && static_cast<Stage>(unexpected_->stage) == Stage::token);
 }
 
-// What comes behind a difference at its place says nothing more.
+// Events behind a difference at the same place say nothing more.
 void EventSearch::stop(Stage stage, int unit) {
   if (stage != Stage::pixel) {
     stopped_[static_cast<std::size_t>(stage)] = true;

@@ -37,8 +37,8 @@ class EventSearch : private CoreObserver {
   /// missing do not count: they wait for the pixels, which are to blame.
   void end(std::uint64_t clock, bool blocked);
 
-  /// Events of the golden core that are kept until the RTL does its part and would be missing if it did not; but those
-  /// of the video: after an error that is all of the frame that is left, at once.
+  /// Number of the golden core's events that are kept until the RTL does its part, and would be missing if it did not.
+  /// Events of the video do not count: after an error they are all the rest of the frame, at once.
   [[nodiscard]] std::size_t pending();
 
   /// The first in the order of tokens and stages, of those seen by now; none if unexpected() comes before it.
@@ -49,11 +49,11 @@ class EventSearch : private CoreObserver {
   [[nodiscard]] const std::optional<kage_rtl_event>& part() const { return part_; }
   /// Whether something differed more than so many clocks ago.
   [[nodiscard]] bool seen_before(std::uint64_t clock, std::uint64_t ago) const;
-  /// What is known of first(), or else of unexpected().
+  /// Known facts of first(), or else of unexpected().
   [[nodiscard]] Clue clue() const;
 
  private:
-  // What the golden core does.
+  // Events of the golden core.
   void header(std::span<const std::uint32_t> words, const LineView& line) override;
   void came(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words) override;
   void before(std::uint32_t index, const Token& token, std::span<const std::uint32_t> words,

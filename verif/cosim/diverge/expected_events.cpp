@@ -248,14 +248,14 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
   }
 }
 
-// What a pixel had to be compared with, at its event that was put() last.
+// Adds the depth and colour that a pixel had to be compared with to its event that was put() last.
 void ExpectedEvents::came_to_pixel(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color) {
   ExpectedEvent& e = newest(Stage::pixel, x);
   if (z) e.expect(at::pixel::z_came, *z);
   if (color) e.expect(at::pixel::color_came, *color);
 }
 
-// What the units and the tree have for a line's pixels, each in turn, and what becomes of the pixels.
+// Expected events of the units and the tree for a line's pixels, each in turn, and the pixels' states after them.
 void ExpectedEvents::tree_events(const LineView& line) {
   command(number(Kind::TREE), 0, width_, of_command);
   const std::uint64_t clear = derived::clear_depth(config_);

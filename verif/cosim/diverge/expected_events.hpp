@@ -115,8 +115,8 @@ class ExpectedEvents : public CoreObserver {
   ExpectedEvent event(Stage stage, int step) const;
   void put(ExpectedEvent e);
   [[nodiscard]] bool watched(Stage stage) const { return (unwatched_ >> static_cast<unsigned>(stage) & 1U) == 0; }
-  /// What was put() last into a queue, for more to be said of it; of a stage that nothing watches, something to write
-  /// to.
+  /// The event that was put() last into a queue, so that more can be said of it. For a stage that no monitor watches,
+  /// an event that nobody reads.
   ExpectedEvent& newest(Stage stage, int unit);
   void token_words(std::span<const std::uint32_t> words, bool final);
   void wrong_token(ErrorCode code, bool header, std::span<const std::uint32_t> words);
@@ -129,7 +129,7 @@ class ExpectedEvents : public CoreObserver {
   void came_to_pixel(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color);
   void touch(int kind, int x, const PixelState& after, int step);
 
-  // Of a line as a whole: expected_line.cpp.
+  // Events of a whole line: expected_line.cpp.
   void state(std::uint64_t bias, bool matters);
   void paint(const LineView& line);
   void load_back(int x, const PixelState& s);
@@ -150,7 +150,7 @@ class ExpectedEvents : public CoreObserver {
   int ramp_bits_;
   std::array<std::vector<std::deque<ExpectedEvent>>, kStages> queues_;
 
-  // Of the frame:
+  // State of the frame:
   bool failed_ = false;
   std::uint32_t failed_at_ = 0;
   int width_ = 0;
@@ -162,7 +162,7 @@ class ExpectedEvents : public CoreObserver {
   std::uint64_t shade_ = 0;
   std::vector<int> given_;  // pixels of the line that a unit is being given
 
-  // Of the line:
+  // State of the line:
   bool resolved_ = false;
   bool painted_ = false;
   std::uint64_t bias_ = 0;                                          // of the last that had one

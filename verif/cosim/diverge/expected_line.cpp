@@ -67,7 +67,7 @@ void ExpectedEvents::leave(const std::vector<Leaving>& pixels, bool blank) {
   }
 }
 
-// What line_phase says, where that is made use of.
+// Event of line_phase's outputs, where they are used.
 void ExpectedEvents::state(std::uint64_t bias, bool matters) {
   ExpectedEvent e = event(Stage::state, of_token);
   e.expect(at::state::bias, bias);
@@ -77,7 +77,7 @@ void ExpectedEvents::state(std::uint64_t bias, bool matters) {
   put(e);
 }
 
-// What is left of a pixel once its line is painted. Its RESOLVE, if there was one, has darkened it.
+// State of a pixel once its line is painted. Its RESOLVE, if there was one, has darkened it.
 PixelState ExpectedEvents::painted(const PixelState& before) const {
   PixelState s = before;
   if (clear(s)) {
@@ -105,7 +105,7 @@ void ExpectedEvents::load_back(int x, const PixelState& s) {
   newest(Stage::pixel, x).load = true;
 }
 
-// What frame_control does before a line's first TP.
+// Events of frame_control before a line's first TP.
 void ExpectedEvents::paint(const LineView& line) {
   state(bias_, config_.count_bits == 0);
   if (config_.count_bits > 0) newest(Stage::state, 0).look_at(at::state::resolved);

@@ -45,7 +45,7 @@ struct ValueInfo {
   ValueText as = ValueText::number;
 };
 
-/// What an event of a stage is in words, and its values.
+/// A stage's event in words, and its values.
 struct StageInfo {
   std::string_view text;
   std::array<ValueInfo, KAGE_RTL_EVENT_VALUES> values;
@@ -127,7 +127,7 @@ class Handshakes {
   explicit constexpr Handshakes(std::uint32_t bits = 0) : bits_(bits) {}
   [[nodiscard]] constexpr bool ready(Port p) const { return bit(2 * static_cast<unsigned>(p)); }
   [[nodiscard]] constexpr bool valid(Port p) const { return bit(2 * static_cast<unsigned>(p) + 1); }
-  /// What is offered there is not taken.
+  /// Whether an item is offered there and not taken.
   [[nodiscard]] constexpr bool waits(Port p) const { return valid(p) && !ready(p); }
   [[nodiscard]] constexpr bool dropping() const { return bit(22); }
 

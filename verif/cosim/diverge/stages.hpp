@@ -13,7 +13,7 @@
 
 namespace kage::cosim {
 
-/// What an event of a stage is, in words: "a command to the pixels".
+/// A stage's event in words: "a command to the pixels".
 std::string_view describe(Stage stage);
 
 /// The name of a stage's value `index`: "xl".

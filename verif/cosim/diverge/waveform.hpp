@@ -17,10 +17,9 @@ struct Waveform {
 };
 
 /// Runs the frames d.from .. d.frame again as the search did that found `d`, and writes the clocks round it to an FST
-/// file, with a GTKWave save file beside it that opens there with the core's main handshakes. `options` are those of
-/// the search, but for the library: of a model that was built for waveforms (ModelOptions), which need not have
-/// monitors. Both files appear together when they are whole, and `d` gets their names. Throws Error if one of them
-/// cannot be written.
+/// file. A GTKWave save file beside it opens there with the core's main handshakes. `options` are those of the search,
+/// except the library: a model that was built for waveforms (ModelOptions), with or without monitors. Both files appear
+/// together when they are whole, and `d` gets their names. Throws Error if one of them cannot be written.
 void write_waveform(Divergence& d, const Feed& feed, const Config& config, const ReplayOptions& options,
                     const Waveform& wave);
 

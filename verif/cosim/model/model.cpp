@@ -119,7 +119,7 @@ std::vector<std::string> lines_of(const ModelTools& tools) {
   return lines;
 }
 
-/// What the cache says of a model, for `kage cache list`.
+/// The cache's description of a model, for `kage cache list`.
 nlohmann::ordered_json about(const Config& config, const ModelOptions& options, const ModelTools& tools) {
   nlohmann::ordered_json values;
   for (const ParamInfo& p : kParams) values[std::string(p.name)] = config.*(p.member);
@@ -157,7 +157,7 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
                                const fs::path& log) {
   const fs::path copy = work / "source";
   std::string cause = with_path(telling_line(said), copy, data);
-  // What build.py said is less than its log has; but a log that found no room on the disk is empty.
+  // build.py prints less than its log has; but a log that found no room on the disk is empty.
   const fs::path own = work / "build/build.log";
   const std::string told = fs::exists(own) ? read_file(own) : "";
   const std::string limit = limit_in(told.empty() ? said : told);
@@ -167,7 +167,7 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
       fmt::format("RTL model: the build failed: {}{}", cause, kept ? fmt::format(" (log: {})", log.string()) : ""));
 }
 
-/// What is told while a model is being built, or waited for.
+/// Tells the progress while a model is being built, or waited for.
 class Waiting {
  public:
   explicit Waiting(const BuildProgress& progress) : progress_(progress) {}
@@ -216,7 +216,8 @@ Model find_model(const Config& config, const ModelOptions& options) {
   HiddenFolder::sweep(cache.folder());  // of builds that were killed
   if (find(now)) return {.library = cache.library(now)};
 
-  // What is built is a copy: someone may change the RTL meanwhile, and the model must be of what its name says.
+  // A copy is built: someone may change the RTL meanwhile, and the model must be of the sources that its name stands
+  // for.
   const HiddenFolder hidden = work_folder(cache.folder());
   const fs::path& work = hidden.path();
   copy_sources(data, sources.files, work / "source");

@@ -34,9 +34,9 @@ struct ModelOptions {
 };
 
 /// The model of `config` from the cache (cosim/model/model_cache.hpp), built first if it is not there or damaged. Its
-/// key is the SHA-256 of all sources that it is made of, the parameters, the options, $CXX, and the versions of
-/// Verilator, compiler and, for a netlist, yosys, so that a changed source is another model. Two programs that want the
-/// same one build it once. Throws Error that names the log when the build fails.
+/// key is the SHA-256 of all its sources, the parameters, the options, $CXX, and the versions of Verilator, compiler
+/// and, for a netlist, yosys. So a changed source is another model. Two programs that want the same one build it once.
+/// Throws Error that names the log when the build fails.
 Model find_model(const Config& config, const ModelOptions& options = {});
 
 /// Whether find_model() would find it in the cache.

@@ -27,7 +27,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kManifestVersion = 1;
 
-/// What a file holds, as its length and CRC-32.
+/// Length and CRC-32 of a file.
 struct Sum {
   std::uint64_t bytes = 0;
   std::uint32_t crc = 0;

@@ -19,7 +19,7 @@ struct CachedModel {
   nlohmann::ordered_json about = {};               ///< what keep() was given; null if that cannot be read
 };
 
-/// What prune() leaves: models that are younger and together smaller. No value: no limit.
+/// Limits of the models that prune() leaves: younger than `age`, together smaller than `bytes`. No value: no limit.
 struct CacheLimits {
   std::optional<std::chrono::seconds> age = {};  ///< since the last use
   std::optional<std::uint64_t> bytes = {};       ///< of all models; those least recently used go first
@@ -39,8 +39,8 @@ class ModelCache {
   [[nodiscard]] std::filesystem::path log(const std::string& key) const { return folder_ / (key + ".log"); }
   [[nodiscard]] std::filesystem::path lock(const std::string& key) const { return folder_ / (key + ".lock"); }
 
-  /// What is wrong with a kept model; empty if it is whole. No value if there is none. Throws Error if somebody else
-  /// could have changed it.
+  /// Why a kept model is damaged; empty if it is whole. No value if there is none. Throws Error if somebody else could
+  /// have changed it.
   [[nodiscard]] std::optional<std::string> damage(const std::string& key) const;
 
   /// Notes that the model is used.
@@ -59,8 +59,8 @@ class ModelCache {
   /// Bytes of what belongs to no model: logs of builds that failed, locks, and objects that models are linked with.
   [[nodiscard]] std::uint64_t other_bytes() const;
 
-  /// Removes of those what is as old as `limits` says, or, where the models leave no room, all. What is needed is made
-  /// again.
+  /// Removes those other files that are as old as `limits` says or, where the models leave no room, all of them. Files
+  /// that are needed are made again.
   void prune_others(const CacheLimits& limits) const;
 
   /// Removes what is beyond the limits; returns it.

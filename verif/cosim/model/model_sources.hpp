@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an RTL model is made of: files and tools. All of it is in the model's key.
+// Files and tools that an RTL model is made of. All of them are in the model's key.
 #pragma once
 
 #include <filesystem>
@@ -28,8 +28,8 @@ const std::string& compiler_version(const BuildProgress& progress = {});
 /// be others since this program asked first.
 ModelTools model_tool_versions(const ModelOptions& options, bool anew = false);
 
-/// What a model is made of: all that build.py reads, by verif/cosim/model/driver/sources.yaml. Paths are below the
-/// source tree, and sorted.
+/// The files that a model is made of: all that build.py reads, by verif/cosim/model/driver/sources.yaml. Paths are
+/// below the source tree, and sorted.
 struct ModelSources {
   std::vector<std::filesystem::path> files;     ///< all
   std::vector<std::filesystem::path> modules;   ///< of these, what Verilator is given

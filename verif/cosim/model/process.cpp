@@ -80,7 +80,8 @@ Process::Process(const std::vector<std::string>& command, Said kept) {
   Pipe failure;
   if (!output.made() || !failure.made()) throw NotStarted(command[0], errno);
   (void)fcntl(output.out(), F_SETFL, O_NONBLOCK);
-  // What its tools leave behind when they are ended comes to this process, so that their end can be waited for.
+  // Processes that its tools leave behind when they are ended come to this process, so that their end can be waited
+  // for.
   (void)prctl(PR_SET_CHILD_SUBREAPER, 1);
   const pid_t parent = getpid();
   pid_ = fork();

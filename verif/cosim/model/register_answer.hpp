@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an access of a register comes to where no response does.
+// Errors for register accesses that get no response.
 #pragma once
 
 #include <fmt/format.h>

@@ -200,7 +200,7 @@ class Rtl : public RtlCore {
     table_->clear_stats(model_);
   }
 
-  /// What RtlOptions::prelude says of the frame at hand.
+  /// Puts ahead of the frame at hand what RtlOptions::prelude describes.
   void prelude() {
     before_ = Before::nothing;
     ahead_ = 0;
@@ -271,7 +271,7 @@ class Rtl : public RtlCore {
     table_->record(model_, 1);
   }
 
-  /// What the model has seen of the frame ahead so far, whose counts are forgotten now.
+  /// Notes misconduct of the model in the frame ahead so far, whose counts are forgotten now.
   void look_at_earlier() {
     kage_rtl_stats stats{};
     table_->stats(model_, &stats);
@@ -411,7 +411,7 @@ class Rtl : public RtlCore {
     return earlier_.size() / static_cast<std::size_t>(config_.channels);
   }
 
-  /// Those of a frame ahead are looked at here. Pixels past the frame's size are counted by the model.
+  /// Takes pixels; those of a frame ahead are compared here. Pixels past the frame's size are counted by the model.
   void take_pixels(const LineSink& sink) {
     std::uint64_t count = 0;
     const std::uint8_t* pixels = table_->pixels(model_, &count);
@@ -436,7 +436,7 @@ class Rtl : public RtlCore {
   std::vector<kage_rtl_event> events_;  // the last ones taken
   std::function<void()> often_;
 
-  // Of what comes right before the frame at hand:
+  // State of the frames right before the one at hand:
   Before before_ = Before::nothing;
   std::uint32_t ahead_ = 0;            // frames ahead whose end was not seen yet
   std::uint32_t earlier_errors_ = 0;   // errors that were not seen yet, as the golden core has them
@@ -444,7 +444,7 @@ class Rtl : public RtlCore {
   std::vector<std::uint8_t> earlier_;  // its pixels to come, as the golden core has them
   int earlier_wrong_ = 0;              // pieces of them that came otherwise
 
-  // Of the frame at hand:
+  // State of the frame at hand:
   bool open_ = false;
   bool announced_ = false;
   bool ended_ = false;  // its last beat is queued

@@ -30,9 +30,9 @@ struct RtlOptions {
   std::function<void(int frame, std::string_view text)> text = {};
 
   /// Gives the words of a frame for every number, negative ones too; it may break rules. With it, some frames meet a
-  /// core that was reset within such a frame just before, and some come right behind one or two, or a few clocks later,
-  /// mostly before their pixels have left; which do follows from seed and number. Those pixels and errors are looked at
-  /// too. A core that records has seen their end before.
+  /// core that was reset within such a frame just before. Others come right behind one or two such frames, or a few
+  /// clocks later, mostly before their pixels have left. Seed and number decide which. The earlier frames' pixels and
+  /// errors are looked at too. A core that records has seen their end before.
   std::function<std::vector<std::uint32_t>(int number)> prelude = {};
 };
 

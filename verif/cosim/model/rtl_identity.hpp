@@ -7,7 +7,7 @@
 
 namespace kage::cosim {
 
-/// What tells whether the RTL of two runs behaves alike.
+/// Identity of an RTL: whether the RTL of two runs behaves alike.
 struct RtlIdentity {
   std::string model_key = {};  ///< of the model that find_model() would give now
   std::string behaviour = {};  ///< a SHA-256; empty if it cannot be told, which is `why_not`

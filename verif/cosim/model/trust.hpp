@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What lies in kage's cache is trusted: RTL models are run, and verdicts stand in for runs. So nobody but this user
-// (and root, who can do anything) may be able to put it there.
+// Files in kage's cache are trusted: RTL models are run, and verdicts stand in for runs. So nobody but this user (and
+// root, who can do anything) may be able to put them there.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,11 @@
 namespace kage::cosim {
 
 /// The folder `inner` below `base`, each level made with mode 0700 if it is missing. Throws Error, with the way to mend
-/// it, if somebody else could change what lies there: a level of `inner` must belong to this user or root and be
-/// writable to nobody else; a link to such a folder is as good, if it is this user's or root's and nobody else can put
+/// it, if somebody else could change what lies there. A level of `inner` must belong to this user or root and be
+/// writable to nobody else. A link to such a folder is as good, if it is this user's or root's and nobody else can put
 /// another folder where it leads. `base` and the folders above it may besides be writable to a group of this user's
-/// own, as Debian gives each user one, and to all where the sticky bit keeps them from other people's files, as in
-/// /tmp.
+/// own, as Debian gives each user one. They may be writable to all where the sticky bit keeps them from other people's
+/// files, as in /tmp.
 std::filesystem::path own_folder(const std::filesystem::path& base, std::initializer_list<const char*> inner);
 
 /// The folder ${XDG_CACHE_HOME:-~/.cache}/kage/NAME, as own_folder() makes and checks it. Throws Error besides if

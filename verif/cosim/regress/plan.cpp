@@ -26,22 +26,21 @@ struct StallPattern {
 };
 constexpr std::array kStalls{StallPattern{0, 0}, StallPattern{30, 30}, StallPattern{0, 70}, StallPattern{60, 0}};
 
-/// How many of them a run has. Those of the first round are few: most defects show in the first frames of some
+/// Random frames of a run. In the first round they are few: most defects show in the first frames of some
 /// configuration, so every configuration has its first frames before any has many.
 constexpr int kFirstFrames = 20;
 constexpr int kFrames = 60;
 
-/// Sources by the order of their runs, as indices of verif::kRandomSources: random, random:mixed, random:damaged. Of
-/// all orders this one finds a mutant in the least time on average: tools/regress-mutants --each prints that time for
-/// each.
+/// Sources by the order of their runs, as indices of verif::kRandomSources: random, random:mixed, random:damaged. This
+/// order finds a mutant in the least time on average: tools/regress-mutants --each prints that time for each order.
 constexpr std::array<std::size_t, 3> kSourcesInOrder{0, 2, 1};
 static_assert(kSourcesInOrder.size() == verif::kRandomSources.size());
 
 /// Width of a scene's frames where the configuration has it. Small, but pixel centres are where `depths` wants them.
 constexpr int kSceneWidth = 160;
 
-/// A configuration in a run's name, which is a folder's too, and stands in lines of text: a file without its folders
-/// and ending, and with what could be read as anything but a name replaced.
+/// A configuration in a run's name, which is a folder's too, and stands in lines of text. It is the name of a file
+/// without its folders and ending, with all that could be read as anything but a name replaced.
 std::string short_name(const NamedConfig& c) {
   std::string name = std::filesystem::path(c.name).stem().string();
   for (char& letter : name)

@@ -29,9 +29,9 @@ struct RegressRun {
 };
 
 /// The runs of round 0, 1, ...: for each configuration sound random frames, sound and damaged ones mixed, damaged ones,
-/// and one of the built-in scenes, so that each scene has met each configuration after as many rounds as there are
-/// scenes. Ports stop in other patterns from round to round, and random frames are others. A configuration with a front
-/// end gets polygons, unless `how` says which level is run. Throws Error if two configurations have one name.
+/// and one of the built-in scenes. So each scene has met each configuration after as many rounds as there are scenes.
+/// Ports stop in other patterns from round to round, and random frames are others. A configuration with a front end
+/// gets polygons, unless `how` says which level is run. Throws Error if two configurations have one name.
 std::vector<PlannedRun> plan_round(const std::vector<NamedConfig>& configs, int round, const RegressRun& how);
 
 }  // namespace kage::cosim

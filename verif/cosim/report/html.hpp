@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What all report pages are made of: one frame of HTML with one style, and scripts (page/, read at run time).
+// Parts of all report pages: one frame of HTML with one style, and scripts (page/, read at run time).
 #pragma once
 
 #include <filesystem>
@@ -17,16 +17,17 @@ namespace kage::report {
 /// No page is larger.
 inline constexpr std::size_t kPageBytes = 10'000'000;
 
-/// Text for HTML or XML, between quotes too. What XML cannot hold, and bytes that are no UTF-8, become U+FFFD.
+/// Text for HTML or XML, between quotes too. Characters that XML cannot hold, and bytes that are no UTF-8, become
+/// U+FFFD.
 std::string escaped(std::string_view text);
 
 /// As text that may stand in a script: a '<' could end it. Bytes that are no UTF-8 (names of files) are replaced.
 std::string script_text(const Json& json);
 
-/// What each parameter of a configuration means.
+/// Meaning of each parameter of a configuration.
 Json meanings();
 
-/// What a page has that the report pages lack.
+/// Parts of a page that the report pages lack.
 struct OwnParts {
   std::string folder{};          ///< below that of the data: a body or a script is looked for here first
   std::string style{};           ///< the name of a file there, without .css, which comes behind page.css

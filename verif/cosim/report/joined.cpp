@@ -33,8 +33,9 @@ std::string address(const fs::path& relative) {
   return out;
 }
 
-/// Where a page may be that was written as `named` in `folder`, and of which `file` tells: beside that, whatever
-/// folders of the name were left behind when both were moved, or where it was written.
+/// Places where a page may be that was written as `named` in `folder`, and of which `file` tells. It may be beside
+/// `file`, without those first folders of `named` that were left behind when both were moved. Or it is where it was
+/// written.
 std::vector<fs::path> places_of(const fs::path& named, const std::string& file, const fs::path& folder) {
   std::vector<fs::path> places;
   if (!file.empty())
@@ -153,7 +154,7 @@ class Data {
     return error || relative.empty() ? Json(nullptr) : Json(address(relative));
   }
 
-  /// A row for each frame: those behind a difference were not compared. What a long run keeps no numbers of has none.
+  /// A row for each frame: those behind a difference were not compared. Frames without stored numbers get no row.
   void frames(std::size_t scene, const SceneRecord& s) {
     if (s.each.empty()) return;
     struct Owner {

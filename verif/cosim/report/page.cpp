@@ -39,7 +39,7 @@ class Pictures {
     return j;
   }
 
-  /// What they take at most.
+  /// Bytes that the pictures take at most.
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
   /// The list, one picture in memory at a time.

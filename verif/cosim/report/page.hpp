@@ -18,9 +18,9 @@
 
 namespace kage::report {
 
-/// What pictures may take: those beyond it are named.
+/// Most bytes of pictures: those beyond it are named.
 inline constexpr std::size_t kPictureBytes = 6'000'000;
-/// What the histories of told pixels may take: those beyond it are left out.
+/// Most bytes of the histories of told pixels: those beyond it are left out.
 inline constexpr std::size_t kToldBytes = 500'000;
 
 /// A pixel with its history, told by the golden model, and by the RTL where it was watched.
@@ -31,7 +31,7 @@ struct ToldPixel {
   std::map<std::uint32_t, std::string> from;  ///< by PixelTouch::nth: which part of the scene it is of
 };
 
-/// What the page tells. All text may be anything: it is escaped.
+/// Contents of the report page. All text may be anything: it is escaped.
 struct Page {
   SceneRecord record;  ///< of the run; its page is this one
   const cosim::Report* run = nullptr;

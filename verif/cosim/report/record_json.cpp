@@ -62,7 +62,7 @@ class Writer {
   void whole(const char* key, M member) {
     (*this)(key, member);
   }
-  /// What another member says too.
+  /// A key whose value follows from other members.
   template <class From>
   void follows(const char* key, From from) {
     json_[key] = from(record_);
@@ -91,7 +91,7 @@ Json written(const T& record) {
   return writer.json();
 }
 
-/// What is said of several scenes besides each one's own.
+/// Sums of several scenes, besides each one's own results.
 Json sums(const RunRecord& record) {
   const TotalsRecord t = record.totals();
   Json first = nullptr;

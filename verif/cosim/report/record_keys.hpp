@@ -277,7 +277,7 @@ void keys(V& v, Of<SceneRecord>) {
 template <class T, class... All>
 inline constexpr bool kIsOneOf = (std::is_same_v<T, All> || ...);
 
-/// What has keys of its own.
+/// Records that have keys of their own.
 template <class T>
 concept Record = kIsOneOf<T, cosim::Stalls, OptionsRecord, WayRecord, FrameRecord, DivergenceRecord, DifferenceRecord,
                           KeptRecord, VerdictsRecord, CoveragePointRecord, CoverageRecord, ShardNumber, ShardRecord,

@@ -29,7 +29,7 @@ void need(bool is, const std::string& place) {
   if (!is) refuse(place);
 }
 
-/// What `j` has as `key`; `before` is the place of `j`, with a slash behind it, or empty.
+/// The value of `key` in `j`. `before` is the place of `j`, with a slash behind it, or empty.
 const Json& at(const Json& j, const std::string& key, const std::string& before = {}) {
   const auto found = j.find(key);
   if (found == j.end())

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a run found: the one record that kage cosim, kage regress and kage merge make, and that JSON, pages, JUnit and
-// the text are made of. docs/schema/cosim.json, regress.json and merge.json say what each key of the JSON means.
+// Results of a run: the one record that kage cosim, kage regress and kage merge make. JSON, pages, JUnit and the text
+// are made of it. docs/schema/cosim.json, regress.json and merge.json say what each key of the JSON means.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace kage::report {
 
 using Json = nlohmann::ordered_json;
 
-/// What decides words and clocks besides scene, size, configuration and seed.
+/// Options that decide words and clocks besides scene, size, configuration and seed.
 struct OptionsRecord {
   std::string fault;               ///< or empty
   std::string netlist;             ///< ice40, ecp5, or empty: the RTL itself
@@ -160,13 +160,13 @@ struct PartRecord {
   std::optional<DifferenceRecord> first_difference;  ///< there unless it is the same
 };
 
-/// What a shard had of a joined scene.
+/// A shard's part of a joined scene.
 struct ShardRecord : PartRecord {
   ShardNumber number;
   std::string file;  ///< that its report came from
 };
 
-/// What a board's screen counted.
+/// Counts of a board's screen.
 struct BoardScreenRecord {
   std::uint64_t shown = 0;            ///< screens that began a frame
   std::uint64_t late = 0;             ///< screens that had none to begin
@@ -195,7 +195,7 @@ struct BoardLoopRecord {
   BoardScreenRecord screen;
 };
 
-/// What a run on a board has besides (kage board).
+/// Further results of a run on a board (kage board).
 struct BoardRecord {
   std::string name;
   std::string port;
@@ -210,7 +210,7 @@ struct BoardRecord {
   std::optional<BoardLoopRecord> loop;
 };
 
-/// What was found of a scene, by one run or, joined, by all shards of it.
+/// Results of a scene, by one run or, joined, by all shards of it.
 struct SceneRecord : PartRecord {
   std::string scene;
   int total_frames = 0;
@@ -247,7 +247,7 @@ struct SceneRecord : PartRecord {
   void take(const cosim::Report& report);
 };
 
-/// What kage regress says besides its runs.
+/// Results of kage regress besides its runs.
 struct RegressRecord {
   std::string again;
   int rounds = 0;
@@ -257,7 +257,7 @@ struct RegressRecord {
   bool interrupted = false;
   std::optional<std::string> trouble;  ///< a run that came to no verdict ended it: which, and why
 
-  /// What headlines say before the number of runs: "interrupted after ", or nothing where all went its way.
+  /// Start of headlines, before the number of runs: "interrupted after ", or nothing where all went its way.
   [[nodiscard]] const char* ended() const {
     return trouble ? "ended by trouble after " : interrupted ? "interrupted after " : "";
   }
@@ -283,7 +283,7 @@ struct TotalsRecord {
   double build_seconds = 0;
 };
 
-/// What a run found.
+/// Results of a run.
 struct RunRecord {
   std::vector<SceneRecord> scenes;  ///< those of kage regress are its runs
   bool several = false;             ///< the JSON has `scenes`, and sums over them
@@ -299,8 +299,8 @@ struct RunRecord {
   /// The schema of its JSON: "kage.cosim/1".
   [[nodiscard]] std::string_view schema() const;
 
-  /// What to_json() made. Throws Error without a file's name: of another version, or "KEY is not what it should be",
-  /// with its place. What the JSON says twice, as sums, is made anew. Keys that are not known are passed over.
+  /// Reads what to_json() made. Throws Error without a file's name: of another version, or "KEY is not what it should
+  /// be", with its place. Values that the JSON has twice, as sums, are made anew. Unknown keys are passed over.
   static RunRecord from_json(const Json& json);
 };
 

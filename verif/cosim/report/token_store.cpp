@@ -80,7 +80,7 @@ void TokenStore::words(std::span<const std::uint32_t> piece) {
   }
   while (const std::uint32_t* first = cutter_.peek()) {
     const std::size_t n = layout_.words_of(*first, level_);
-    // What is no token ends the frame for a core; the page has what came before.
+    // A word that begins no token ends the frame for a core; the page has the tokens before it.
     broken_ = n == 0;
     if (broken_) return;
     const auto body = cutter_.take(n);

@@ -31,14 +31,14 @@ struct Band {
   int line = -1;            ///< the first; -1: the frame state
   std::uint32_t token = 0;  ///< index of its first token
   std::uint32_t ahead = 0;  ///< so many SEGs of earlier tokens stand before that one
-  /// Of a frame at the polygon level: tokens of the span level, each behind a word that has the index of the stream's
-  /// token in its lower bits and kMade if the front end made it, as IF of an NC.
+  /// The frame is at the polygon level: its tokens are those of the span level, each behind a word. This word has the
+  /// index of the stream's token in its lower bits, and kMade if the front end made the token, as IF of an NC.
   bool indexed = false;
   std::uint64_t offset = 0;  ///< of its text in the store
   std::size_t bytes = 0;     ///< of the text
 };
 
-/// What else is known of a frame from its words.
+/// Further facts of a frame, known from its words.
 struct FrameTokens {
   PhaseSums phases;
   std::uint32_t tokens = 0;  ///< the header is one
@@ -60,7 +60,7 @@ class TokenStore {
   void words(std::span<const std::uint32_t> piece);
   void end();
 
-  /// What the store of later frames has kept, of so many frames at most: as if this one had read them itself.
+  /// Adds what the store of later frames has kept, of at most `frames` frames, as if this store had read them itself.
   void append(const TokenStore& later, std::size_t frames);
 
   [[nodiscard]] const std::vector<Band>& bands() const { return bands_; }
@@ -90,7 +90,7 @@ class TokenStore {
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
   bool full_ = false;
 
-  // Of the frame at hand:
+  // State of the frame at hand:
   WordCutter cutter_;
   bool header_ = true;  // it has yet to come
   bool broken_ = false;

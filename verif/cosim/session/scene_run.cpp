@@ -150,8 +150,7 @@ Feed SceneRun::heard_feed(Part& part) {
   };
 }
 
-/// Frames are made ahead of those that are compared, how far is chance. What is told of them is told of the frames that
-/// were compared, so it is counted again for these alone.
+/// Counts again for the frames that were compared alone, because frames are made ahead of those, and how far is chance.
 void SceneRun::count_again(Part& part) {
   const FrameSteps steps = part.range.steps;
   Source& source = source_of(part);
@@ -188,8 +187,8 @@ Report SceneRun::simulate(Part& part, const FrameRange& range) {
   return run_rtl(part, range, heard_feed(part), *golden, options);
 }
 
-/// One job tells at once what the RTL writes. Of several, each keeps it, so that join() can tell it in the order of
-/// frames, and nothing of frames behind the first difference. A silent run is made again if it comes out different.
+/// One job passes on the RTL's text at once. Each of several jobs keeps it, so that join() can pass it on in the order
+/// of frames, and nothing of frames behind the first difference. A silent run is made again if it comes out different.
 void SceneRun::take_rtl_text(Part& part, std::string_view text) const {
   if (o_.silent) return;
   if (o_.jobs == 1)

@@ -52,10 +52,10 @@ class SceneRun {
   void prepare(int ranges);
   [[nodiscard]] int ranges() const { return static_cast<int>(parts_.size()); }
 
-  /// Compares a range's frames. What goes wrong is kept for finish().
+  /// Compares a range's frames. Failures are kept for finish().
   void run(int range);
 
-  /// All ranges have ended: looks for the stage that differs first, and writes the page. What the scene writes gets its
+  /// All ranges have ended: looks for the stage that differs first, and writes the page. The scene's files get their
   /// names with the others of `files`. Returns the scene's record; throws what ended a range before any difference.
   report::SceneRecord finish(TempFiles& files);
 

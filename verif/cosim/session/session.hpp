@@ -23,8 +23,8 @@ class Session {
   /// Compares all frames of all scenes.
   void compare();
 
-  /// Looks into differences and writes pages. What is written gets its names with the others of `files`. Throws what
-  /// ended a scene before any difference.
+  /// Looks into differences and writes pages. New files get their names with the others of `files`. Throws what ended a
+  /// scene before any difference.
   report::RunRecord finish(TempFiles& files);
 
   // After finish():

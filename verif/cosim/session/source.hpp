@@ -94,10 +94,10 @@ class Source : public FrameSource {
   /// The features that --degrade left out.
   [[nodiscard]] const std::vector<std::string>& degraded() const { return degraded_; }
 
-  /// How each component of the scene went in the frames made so far, if the configuration has units: object, component,
-  /// in how many frames a unit had it and in how many it became spans, and why in the last of those. Neighbours that
-  /// can be no polyhedron for the same reason are one entry, with their number and the first one's why: a soup of
-  /// triangles has as many components as faces. Of a stream: as the file has it, if it has.
+  /// How each component of the scene went in the frames made so far, if the configuration has units. An entry has
+  /// object and component; in how many frames a unit had it; in how many it became spans, and why in the last of those.
+  /// Neighbours that can be no polyhedron for the same reason are one entry, with their number and the first one's why:
+  /// a soup of triangles has as many components as faces. For a stream, as the file has it, if it has.
   [[nodiscard]] report::WayRecords ways() const;
 
   /// How polygons went in the frames of a scene made so far, at the polygon level.

@@ -14,7 +14,7 @@
 
 namespace kage::plot {
 
-/// What something is drawn for; its colour follows, in a light and in a dark variant.
+/// Purpose of a drawn thing, which decides its colour, in a light and in a dark variant.
 enum class Ink : std::uint8_t { back, text, soft, axis, grid, front, other, base };
 
 /// 0xRRGGBB on a light background and on a dark one, and the name of its class in SVG.

@@ -153,7 +153,7 @@ class Plotter {
     for (const double v : error_labels_) wide = std::max(wide, width_of(number_text(v), size, false));
     area_ = {kEdge + size * 1.6 + wide + 8, top_ + size * 1.2, format_.width - kEdge - 4,
              format_.height - kEdge - size * 3.2};
-    // What has no error stands apart, at the better end.
+    // Points without an error stand apart, at the better end.
     const double tall = strip ? (error_ ? size * 2.2 : area_.bottom - area_.top) : 0;
     strip_ = plot_.error.more_is_better ? Box{area_.left, area_.top, area_.right, area_.top + tall}
                                         : Box{area_.left, area_.bottom - tall, area_.right, area_.bottom};

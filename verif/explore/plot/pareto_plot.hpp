@@ -49,11 +49,11 @@ inline constexpr PlotFormat kWidePlot{};
 inline constexpr PlotFormat kNarrowPlot{.width = 340, .height = 420, .text = 12};
 
 /// The points that no other beats, from the cheapest: none costs as little and is better, or costs less and is as good.
-/// Of points that are alike, the first.
+/// If points are alike, the first of them.
 std::vector<std::size_t> frontier(const ParetoPlot& plot);
 
-/// Of a chain of places those where it bends: both ends, and each place that is further than `far` from the straight
-/// line between the kept ones beside it (Ramer, Douglas and Peucker); the farthest first, behind the ends.
+/// The places where a chain bends. They are both ends, and each place that is further than `far` from the straight line
+/// between the kept ones beside it (Ramer, Douglas and Peucker); the farthest first, behind the ends.
 std::vector<std::size_t> bends(const std::vector<Place>& chain, double far);
 
 /// Draws it. Named are the base and the frontier's bends, further than a thirtieth of the plot's width, as far as there

@@ -9,7 +9,7 @@
 namespace kage::plot {
 namespace {
 
-// Of the axis, left free beyond the least and the greatest value.
+// Share of the axis that is left free beyond the least and the greatest value.
 constexpr double kRoom = 0.05;
 
 const std::vector<int> kDigits{1, 2, 3, 4, 5, 6, 7, 8, 9};  // NOLINT(cert-err58-cpp)

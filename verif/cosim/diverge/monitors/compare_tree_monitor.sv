@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// compare_tree from its ports alone: of the units' pixels that were taken for a place, the one with the least key, on
-// equal keys the lowest unit's, no later after the last of them than the tree's latency; and no more are taken of a
-// unit than there are registers for.
+// compare_tree from its ports alone. For each place, the pixel with the least key leaves, on equal keys the lowest
+// unit's. Once the last unit's pixel is taken, the result comes within the tree's latency. And no more pixels are taken
+// of a unit than there are registers for.
 `default_nettype none
 
 module compare_tree_monitor #(

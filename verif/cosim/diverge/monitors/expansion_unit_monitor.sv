@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // expansion_unit from its ports alone: a line whose segments were taken leaves with as many pixels as they have, the
-// last of them as its last. What the pixels are is held against the golden core.
+// last of them as its last. The pixels' values are held against the golden core elsewhere.
 `default_nettype none
 
 module expansion_unit_monitor #(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What line_phase tells frame_control where that makes use of it, as events (rtl/defs/stages.yaml); and rules of
-// frame_control's own outputs: a segment that waits stays, nothing is taken or given while a line is on its way out and
-// back, units are told of an error, and a frame ends with END or once its input has been dropped.
+// Outputs of line_phase where frame_control uses them, as events (rtl/defs/stages.yaml); and rules of frame_control's
+// own outputs. A segment that waits stays. Nothing is taken or given while a line is on its way out and back. Units are
+// told of an error. A frame ends with END or once its input has been dropped.
 `default_nettype none
 
 module frame_control_monitor #(

@@ -58,7 +58,7 @@ module front_merge_monitor #(
   assign head  = role_i;
   assign flags = flags_i;
 
-  // What the module has of the frame: known from the first header on.
+  // State of the frame that the module keeps: known from the first header on.
   bit known_q, begun_q, end_known_q, end_goes_on_q;
   bit [1:0] side_known_q;
   int width_q, next_line_q;

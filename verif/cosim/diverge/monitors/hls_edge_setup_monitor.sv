@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// hls_edge_setup from its ports alone: where an edge crosses a line's centre, and its step, by division. What the
-// kernel makes of an edge that does not go down, or of a line that it does not cross, is not asked.
+// hls_edge_setup from its ports alone: where an edge crosses a line's centre, and its step, by division. The kernel's
+// result is not checked for an edge that does not go down, nor for a line that the edge does not cross.
 `default_nettype none
 /* verilator lint_off UNUSEDSIGNAL */  // whole words are taken apart
 /* verilator lint_off BLKSEQ */  // a model, in the order of its lines

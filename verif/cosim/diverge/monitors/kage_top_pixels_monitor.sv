@@ -24,7 +24,7 @@ module kage_top_pixels_monitor #(
   `include "kage_trace.svh"
   `include "generated/kage_buses.svh"
 
-  // What comes back; its event needs no end of line.
+  // The load that comes back; its event needs no end of line.
   load_t back;
   logic  unused_last;
   assign back = load;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What frame_control gives to the compare tree, and the tree's pixels, as events (rtl/defs/stages.yaml).
-// Bound into kage_top, so the netlist never sees it.
+// Claims, faces and segments that frame_control gives to the tree, and the tree's pixels, as events
+// (rtl/defs/stages.yaml). Bound into kage_top, so the netlist never sees it.
 //
 // Ports have the names of kage_top's nets, which `.*` connects.
 `default_nettype none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where pixels are in block RAM.
+// Effect of each command on each pixel of its range, as events (rtl/defs/stages.yaml), where pixels are in block RAM.
 `default_nettype none
 
 module pixel_banked_monitor #(

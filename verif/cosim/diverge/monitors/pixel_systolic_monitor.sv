@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each command does to each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a
+// Effect of each command on each pixel of its range, as events (rtl/defs/stages.yaml), where every pixel has a
 // processor.
 `default_nettype none
 

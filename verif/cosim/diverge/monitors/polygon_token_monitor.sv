@@ -32,11 +32,11 @@ module polygon_token_monitor #(
   localparam int BITS = WORDS * 32;
   `include "kage_trace_word.svh"
 
-  // Of the frame and the line, as the next token finds them.
+  // State of the frame and the line, as the next token finds it.
   bit held_q, placed_q;
   int line_q;
   logic [PlaceBits-1:0] place_q;
-  // Of the token that is out.
+  // State of the token that is out.
   logic [BITS-1:0] token_q;
   logic [FlagsBits-1:0] flags_q;
   role_t role_q, role_now;

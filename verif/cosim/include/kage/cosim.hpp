@@ -108,9 +108,9 @@ struct RtlRun {
   int backpressure = 0;  ///< 0 to 95 percent of clocks at random in which no output is taken
 };
 
-/// Which part of the frames a run has. The frames of all its scenes, in the order given, are one list; of N shards,
-/// shard I has the entries I - 1, I - 1 + N, I - 1 + 2 N, ... Frames that are dear lie side by side, so shards that
-/// take turns have as much to do as one another; and which frames a shard has depends on nothing but I, N and the list.
+/// The part of the frames that a run has. The frames of all its scenes, in the order given, are one list; of N shards,
+/// shard I has the entries I - 1, I - 1 + N, I - 1 + 2 N, ... Frames that take long lie side by side, so shards that
+/// take turns have equal work. The frames of a shard depend on nothing but I, N and the list.
 struct Shard {
   int index = 1;       ///< from 1
   int count = 1;       ///< 1 to kMostFrames

@@ -48,12 +48,13 @@ from steps import Log, end_all, fail, run, without_blanks
 FROM_VERILATOR = HERE / "from_verilator.hpp"
 FAULTS = only("fault").parent
 DEFS = only("parameters")
-# What every part is compiled by. What the RTL writes goes through the driver. The header is copied, so that these flags are the
-# same in every source tree.
+# Flags with which every part is compiled. Text that the RTL writes goes through the driver. The header is copied, so
+# that these flags are the same in every source tree.
 CFLAGS = f"-fPIC -fvisibility=hidden -DVL_USER_STOP -DVL_PRINTF=kage_printf -include {FROM_VERILATOR.name}"
 # A library with unique symbols, which g++ makes and clang does not, would stay in memory for ever.
 OF_GNU = " -fno-gnu-unique"
-# What make and compilers would take from the environment beside $CXX. It is no part of a model's key, so no model has it.
+# Variables that make and compilers would take from the environment beside $CXX. They are no part of a model's key, so
+# no model is built with them.
 UNASKED = "CXXFLAGS CPPFLAGS CFLAGS LDFLAGS LDLIBS OPT OPT_FAST OPT_SLOW OPT_GLOBAL USER_CPPFLAGS USER_LDFLAGS USER_LDLIBS MAKEFLAGS MFLAGS"
 PARTS = ("monitors", "waves", "mutants", "lines")  # options that a model is built with
 
@@ -184,20 +185,20 @@ class Build:
             missing = [m for m in monitors if m not in files("port_monitors")]
             monitors = [m for m in monitors if m not in missing]
         while not run("verilator", command + monitors, self.log, lambda text: leave_out(monitors, missing, text)):
-            # What a Verilator that failed has left would be compiled, too.
+            # Files left by a Verilator that failed would be compiled, too.
             shutil.rmtree(self.obj, ignore_errors=True)
         name_initial_state(self.obj)
         return missing
 
     def netlist(self):
-        """What stands in place of the RTL: its netlist, the models of its cells, and a kage_top with parameters around it."""
+        """The sources in place of the RTL: its netlist, its cells' models, and a kage_top with parameters around it."""
         synthesized, top = self.work / "netlist.v", self.work / "kage_top.sv"
         netlist.synthesize(self.args.netlist, synthesized, self.values, self.rtl, self.log, "kage_netlist")
         netlist.wrapper(top, self.rtl, "kage_netlist")
         return [top, synthesized, *(f for f in files("cells") if f.stem == self.args.netlist)]
 
     def write_params(self, missing):
-        """What the driver has of the model as constants."""
+        """Write the model's constants for the driver."""
         values = self.values
         names = ", ".join(f'"{n}"' for n in values)
         numbers = ", ".join(str(v) for v in values.values())
@@ -215,9 +216,9 @@ class Build:
         )
 
     def make_one_unit(self):
-        """Write the model and its driver as one unit of the compiler, which so reads the headers once: half of the time of a
-        small model. What Verilator calls slow runs once, when a model begins, so the compiler takes no care over it: a
-        third of the time of a model with waveforms, whose list of nets is such code."""
+        """Write the model and its driver as one unit of the compiler, which so reads the headers once: half of the time
+        of a small model. Code that Verilator calls slow runs once, when a model begins, so the compiler takes no care
+        over it. That saves a third of the time of a model with waveforms, whose list of nets is such code."""
         sources = files("driver") + (files("monitors") if self.args.monitors else [])
         for source in sources:
             if source.suffix in (".cpp", ".hpp", ".h"):

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What Verilator's own code calls: for a waveform's file, events, text, initial values, assertions.
+// Functions that Verilator's own code calls: for a waveform's file, events, text, initial values, assertions.
 #include "from_verilator.hpp"
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 #endif
 
 #ifdef KAGE_WAVES
-// The library is linked so that these take the place of the C functions (build.py: --wrap): Verilator's writer of FST
-// does not look whether what it writes gets written. stdio keeps the error with the file until it is closed.
+// The library is linked so that these take the place of the C functions (build.py: --wrap). Verilator's writer of FST
+// does not check whether its writes succeed. stdio keeps the error with the file until it is closed.
 extern "C" {
 size_t __real_fwrite(const void* data, size_t size, size_t count, FILE* file);
 int __real_fputc(int byte, FILE* file);

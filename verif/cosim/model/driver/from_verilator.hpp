@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What Verilator's own code calls in from_verilator.cpp: build.py sees to it.
+// Functions in from_verilator.cpp that Verilator's own code calls: build.py sees to it.
 #pragma once
 
 #include <cstddef>

@@ -7,8 +7,8 @@ from steps import fail
 
 
 def name_initial_state(obj):
-    """Let every register's and memory's first value follow from seed and name (kage_initial() of from_verilator.cpp), in place of the
-    order in which Verilator draws them: so a model with monitors or waveforms starts as the plain one does."""
+    """Let every register's and memory's first value follow from seed and name (kage_initial() of from_verilator.cpp),
+    not from the order in which Verilator draws them. So a model with monitors or waveforms starts as the plain one."""
     name = r"(vlSelf->(\w+)((?:\[\w+\])*))"
     for path in sorted(obj.glob("*.cpp")):
         text = path.read_text()

@@ -15,8 +15,8 @@
 #include "verilated.h"
 #include "verilated_cov.h"
 
-/// What Verilator writes of a point: "C '" with fields {0x01, key, 0x02, value}, "' ", and its count. Keys: f file, l
-/// line, o what it is ("block", "if", "else", ...).
+/// Verilator's text of a point: "C '" with fields {0x01, key, 0x02, value}, "' ", and its count. Keys: f file, l line,
+/// o what it is ("block", "if", "else", ...).
 inline std::string coverage_field(const std::string& line, const std::string& key) {
   const std::string begin = '\x01' + key + '\x02';
   const std::size_t at = line.find(begin);

@@ -133,7 +133,7 @@ struct kage_rtl {
   }
 
   // A clock is two steps. settle(): inputs may have changed since the last edge, and outputs follow them, as a ready
-  // may that waits for its valid. What the port says then is what it says at the edge. tick(): the edge.
+  // may that waits for its valid. The port's values are then those at the edge. tick(): the edge.
   void settle() {
     top->clk_i = 0;
     top->eval();
@@ -227,7 +227,7 @@ struct kage_rtl {
     finish_clock();
   }
 
-  // What the streams do in this clock; afterwards all ports have the values that the edge will see.
+  // Lets the streams go on in this clock; afterwards all ports have the values that the edge will see.
   void drive() {
     if (!offered && !queue.empty()) {
       offered = input.next();

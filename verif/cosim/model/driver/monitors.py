@@ -28,7 +28,7 @@ def leave_out(monitors, missing, text):
 
 
 def unwatched(missing):
-    """What the driver says of monitors that were left out: their names, and the stages that nothing gives events of."""
+    """The driver's constants for monitors that were left out: their names, and the stages that have no events."""
     numbers = (
         dict(re.findall(r"^#define KAGE_STAGE_(\w+) (\d+)$", (MONITORS / "stages.h").read_text(), re.M))
         if missing

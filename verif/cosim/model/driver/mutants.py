@@ -18,7 +18,7 @@ def put_in(rtl, package):
                 f"mutant {m['name']}: rtl/{m['file']} has not exactly once: {around if text.count(around) != 1 else m['text']}"
             )
         begin = text.index(around) + around.index(m["text"])
-        # What is put in before an instance's `.*` leaves room for another there.
+        # A mutant that is put in before an instance's `.*` leaves room for another there.
         places.setdefault(m["file"], []).append((begin, begin if "port" in m else begin + len(m["text"]), number, m))
     for name, of_file in places.items():
         text = (rtl / name).read_text()
@@ -26,7 +26,7 @@ def put_in(rtl, package):
         for before, after in zip(of_file, of_file[1:]):
             if before[1] > after[0] and before[:2] != after[:2]:
                 fail(f"mutant {after[3]['name']}: overlaps {before[3]['name']}")
-        # Those of one text stand in each other's place for "the sound RTL".
+        # Mutants of one text form a chain of choices, with the sound RTL's text as its end.
         together = {}
         for begin, end, number, m in of_file:
             together.setdefault((begin, end, m.get("port")), []).append((number, m["with"]))

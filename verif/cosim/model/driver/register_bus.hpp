@@ -82,7 +82,8 @@ class RegisterBus {
     read.begin(timing, false);
   }
 
-  /// That of a master that takes its time: address first, data first, both at once, in turn; most responses wait.
+  /// Timing of an access by a master that takes its time: address first, data first, both at once, in turn; most
+  /// responses wait.
   AccessTiming patient(Random& random) {
     const unsigned turn = turn_++;
     AccessTiming t;

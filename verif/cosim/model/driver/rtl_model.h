@@ -32,7 +32,7 @@ enum {
   KAGE_RTL_DRY = 5     /* every queued beat is taken */
 };
 
-/* What an access of a register gives in place of a response. */
+/* Results of a register access that gets no response. */
 enum {
   KAGE_RTL_NO_ANSWER = -1, /* none came in 1000 clocks */
   KAGE_RTL_ENDED = -2,     /* an assertion failed, or $finish ended the simulation */
@@ -48,8 +48,8 @@ typedef struct {
   int answer;       /* the response, or what came in its place */
 } kage_rtl_access;
 
-/* What passes between the modules of the core, and within some, as the monitors tell it. Which stages there are, and
- * what the values of each are: rtl/defs/stages.yaml. */
+/* Events that pass between the modules of the core, and within some, as the monitors tell them. The stages, and the
+ * values of each, are in rtl/defs/stages.yaml. */
 #define KAGE_RTL_EVENT_VALUES 13
 
 typedef struct {
@@ -64,8 +64,8 @@ typedef struct {
 /* All counts are since create() or clear_stats(). */
 typedef struct {
   uint64_t cycles; /* clocks outside reset */
-  /* By the mark of the first word of the next beat, mark(): clocks in which the core was ready for a beat that is still
-   * queued but none was offered, and clocks in which a pixel waited for ready. */
+  /* Clocks by the mark of the first word of the next beat, mark(). starved: the core was ready for a beat that is
+   * still queued but none was offered. blocked: a pixel waited for ready. */
   uint64_t starved[KAGE_RTL_MARKS];
   uint64_t blocked[KAGE_RTL_MARKS];
   uint64_t beats;        /* taken by the core */
@@ -79,8 +79,8 @@ typedef struct {
 typedef struct {
   uint32_t abi; /* KAGE_RTL_ABI */
 
-  /* What the model was built from: parameters by name, in the order of rtl/defs/kage.yaml, and the fault built in (""
-   * if none). */
+  /* Parameters that the model was built with, by name, in the order of rtl/defs/kage.yaml; and the fault built in
+   * ("" if none). */
   uint32_t param_count;
   const char* const* param_names;
   const int32_t* param_values;
@@ -103,8 +103,8 @@ typedef struct {
   /* Whether assertions of the RTL are looked at; they are from create() on. */
   void (*assertions)(kage_rtl*, int on);
 
-  /* What the RTL writes from now on, as by $display or an assertion that fails, goes to `text` with `user`, in pieces
-   * of any size; to standard error where `text` is NULL, as it does from create() on. */
+  /* Sends the RTL's text from now on, as of $display or an assertion that fails, to `text` with `user`, in pieces of
+   * any size. Where `text` is NULL, it goes to standard error, as it does from create() on. */
   void (*on_text)(kage_rtl*, void (*text)(void* user, const char* piece), void* user);
 
   /* The file and line of the assertion that failed, "frame_control.sv:312"; "" if none has. Its message has gone where
@@ -149,9 +149,9 @@ typedef struct {
    * Address and data come in the first clock, and a response is taken in the clock in which it comes. */
   int (*reg_read)(kage_rtl*, uint32_t address, uint32_t* value);
   int (*reg_write)(kage_rtl*, uint32_t address, uint32_t value);
-  /* A write, a read (the other is NULL), or both at the same time, by a master that takes its time: the address of a
-   * write comes before its data, with it, or behind it, that of a read some clocks behind a write's; responses wait for
-   * their ready. The seed of stalls() says how long. */
+  /* A write, a read (the other is NULL), or both at the same time, by a master that takes its time. A write's
+   * address comes before its data, with it, or behind it. A read's address comes some clocks behind a write's.
+   * Responses wait for their ready. The seed of stalls() says how long. */
   void (*reg_access)(kage_rtl*, kage_rtl_access* write, kage_rtl_access* read);
   int (*irq)(kage_rtl*);
 
@@ -166,10 +166,10 @@ typedef struct {
   const kage_rtl_event* (*events)(kage_rtl*, uint64_t* count);
   void (*clear_events)(kage_rtl*);
 
-  /* Who waits for whom, as of the last clock that was recorded: pairs {valid, ready}, ready lower, from the lowest:
-   * token, segment, tree, command (before pixel_loads), command (behind it), line, load, video, a frame's header before
-   * the tree, a command that waits before the buffers of the way out, a line that the way out has and shall send back;
-   * then a bit: input is being dropped. */
+  /* Handshakes, as of the last clock that was recorded: who waits for whom. Pairs {valid, ready}, ready lower, from
+   * the lowest: token, segment, tree, command (before pixel_loads), command (behind it), line, load, video. Then
+   * three more pairs: a frame's header before the tree; a command that waits before the buffers of the way out; a
+   * line that the way out has and shall send back. Then a bit: input is being dropped. */
   int64_t (*handshakes)(kage_rtl*);
 
   /* Write an FST waveform of the clocks `first` to `last` to `path`, which is there whole once they have passed or the

@@ -78,7 +78,7 @@ SUM_BYTES = 12
 
 
 def check_sum(data):
-    """What stands behind a kept object: its length and CRC-32."""
+    """The bytes that stand behind a kept object: its length and CRC-32."""
     return struct.pack("<QI", len(data), zlib.crc32(data))
 
 

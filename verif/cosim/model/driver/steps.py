@@ -15,12 +15,12 @@ def fail(message):
     sys.exit(2)
 
 
-# What a tool says when it may write no more, in the system's words.
+# Messages of a tool that may write no more, in the system's words.
 NO_ROOM = [os.strerror(e) for e in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS)]
 
 
 class Log:
-    """What the steps say. The disk of its file may be full: then the build goes on, or says its cause, without one."""
+    """Text of the steps. The disk of its file may be full: then the build goes on, or says its cause, without one."""
 
     def __init__(self, path):
         self.path = path

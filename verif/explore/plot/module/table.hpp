@@ -27,7 +27,7 @@ struct PlotModule : ModuleHead {
   Image (*image)(const Drawing& drawing, double scale);
 };
 
-// What the module is made of, in its own files.
+// Functions of the module, in its own files.
 namespace module {
 double width(std::string_view text, double size, bool bold);
 Image image(const Drawing& drawing, double scale);
