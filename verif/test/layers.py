@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Folders include what docs/architecture.md ("Layers") lets them: a layer those below it and their public headers,
-oracles nothing of what they judge, and nothing that is installed a test, an oracle, a mutant or a benchmark.
+"""Folders include only what docs/architecture.md ("Layers") lets them. A layer includes those below it and their
+public headers. Oracles include nothing that they judge, and installed code includes no test, oracle, mutant or
+benchmark.
 
 usage: layers.py SOURCE_DIR
 """
@@ -11,7 +12,7 @@ import posixpath
 import re
 import sys
 
-# Of the golden model, what stands right below each folder; what is below that may be included too.
+# The golden model: the folders right below each folder; those below these may be included too.
 BELOW = {
     "number": [],
     "simd": [],
