@@ -8,7 +8,7 @@
 //
 // How: the line's polygons lie in active_list by place, and the line's tokens come by place. Module front_merge
 //   compares the two heads by their places, so that neither is ever searched. The result is a register: a token is
-//   judged on its way to be the head, a polygon on its way to be the list's first, and again when an AT has a new place.
+//   judged on its way to the head, a polygon on its way to the list's first place, and again when an AT has a new one.
 // Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. Input drop_i, from
 //   behind, is high only in a clock in which a token is taken that does not end its frame. All that is here of the
 //   frame is then forgotten, token_valid_o falls, and drop_o has the reader drop the rest of it. Output dropping_o is
