@@ -26,8 +26,8 @@ struct StreamPlace {
   /// - "header", "words" and "bits behind the last field": the words break the rules of tokens,
   /// - "section": the words are the same and one is FRAM, the other PORT.
   std::string field;
-  std::string a;      ///< the token in words, as to_string() has it
-  std::string b;      ///< likewise, of the second stream
+  std::string a;  ///< the token in words, as to_string() has it
+  std::string b;  ///< likewise, of the second stream
 };
 
 /// How a frame of two streams compares.
