@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rooms of the source tree, which of them may include which (docs/architecture.md, "Layers"), and the files that an include
-names. contract/layers holds every include to it; tools/selection.py finds by it the tests that a change concerns."""
+"""The rooms of the source tree, and which of them may include which (docs/architecture.md, "Layers"). The test contract/layers
+holds every include to this table. By the same table tools/selection.py finds the tests that a change concerns."""
 
 import posixpath
 import re

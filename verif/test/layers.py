@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Folders include what docs/architecture.md ("Layers") lets them: a layer those below it and their public headers,
-oracles nothing of what they judge, and nothing that is installed a test, an oracle, a mutant or a benchmark.
+"""Folders include what docs/architecture.md ("Layers") lets them. A layer includes those below it and their public headers.
+An oracle includes nothing that it judges. Nothing that is installed includes a test, an oracle, a mutant or a benchmark.
 
 usage: layers.py SOURCE_DIR
 """
