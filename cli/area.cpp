@@ -84,22 +84,22 @@ int run(const AreaCommand& o) {
 
 }  // namespace
 
-void add_area(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "area", "Count what configurations take of an FPGA",
+void add_area(Program& program, Action& action) {
+  Command c =
+      program.add("area", "Count what configurations take of an FPGA",
                   "  kage area default full\n"
                   "  kage area mine.yaml --json -\n"
                   "  kage area --estimate\n"
                   "Cells are those of an ECP5, counted by yosys before placement, which takes ten seconds to some\n"
                   "minutes and is kept; tools/fpga places a core and says its clock.");
   const auto o = std::make_shared<AreaCommand>();
-  c->add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("NAME|FILE");
-  c->add_flag("--estimate", o->estimate, "do not count: print the estimate alone, which kage plan goes by");
-  c->add_flag("--anew", o->anew, "count again what is kept");
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c.add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
+      .take_all()
+      .type_name("NAME|FILE");
+  c.add_flag("--estimate", o->estimate, "do not count: print the estimate alone, which kage plan goes by");
+  c.add_flag("--anew", o->anew, "count again what is kept");
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

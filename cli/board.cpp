@@ -45,7 +45,7 @@ struct BoardCommand : Options {
   std::optional<double> timeout;
   std::optional<double> loop;
   bool leave = false;
-  const CLI::App* command = nullptr;
+  Command command;
 
   [[nodiscard]] bool simulated() const { return port.starts_with(board::kSimulated); }
 };
@@ -125,7 +125,7 @@ int run(const BoardCommand& o) {
   const board::PackVerdict verdict = play(o, pack);
   TempFiles files;
   const report::RunRecord record = board::record_of(
-      {pack, o.input, o.port, verdict, command_line(*o.command), "kage " KAGE_VERSION}, o.out, files, terminal());
+      {pack, o.input, o.port, verdict, command_line(o.command), "kage " KAGE_VERSION}, o.out, files, terminal());
   const report::SceneRecord& scene = record.scenes.front();
   try {
     write_json(o.json, record, files);
@@ -148,9 +148,9 @@ int run(const BoardCommand& o) {
 
 }  // namespace
 
-void add_board(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(
-      app, "board", "Play a pack on a board, or on one in simulation, and compare every line and register",
+void add_board(Program& program, Action& action) {
+  Command c = program.add(
+      "board", "Play a pack on a board, or on one in simulation, and compare every line and register",
       "  kage vectors courtyard --size 64x48 --frames 2 --config ulx3s.yaml --out pack   (the board's core)\n"
       "  kage board --port /dev/ttyUSB0 pack\n"
       "  verif/board/sim/build_board.py --core ulx3s_25f >sim.yaml   (a board in simulation has a smaller core)\n"
@@ -163,30 +163,30 @@ void add_board(CLI::App& app, Action& action) {
       "Exit code 0: the same. 1: different, or the core hangs. 2: trouble, in one line that says what to do.\n"
       "docs/boards.md says more.");
   const auto o = std::make_shared<BoardCommand>();
-  c->add_option("PACK", o->input, "folder that kage vectors wrote")->required();
-  c->add_option("--port", o->port, "the serial device of the board, as /dev/ttyUSB0, or sim:NAME")
-      ->required()
-      ->type_name("PORT");
-  c->add_option("--baud", o->baud, fmt::format("bits per second of the serial device, default {}", board::kDefaultBaud))
-      ->check(whole_number(1, 100'000'000))
-      ->type_name("N");
-  c->add_option("--timeout", o->timeout,
-                fmt::format("for how long no line may come before the core is said to hang, by the board's clock; "
-                            "default {} and {} in simulation",
-                            kDeviceSeconds, kSimulatedSeconds))
-      ->check(real_number(0.001, 86400))
-      ->type_name("SECONDS");
-  c->add_option("--loop", o->loop,
-                "once all was right, play the frames over and over for so long, compared by the board itself; 0: until "
-                "Ctrl-C")
-      ->check(real_number(0, 1e7))
-      ->type_name("SECONDS");
-  c->add_flag("--leave", o->leave, "leave the board at that, LED 2 on for right and LED 3 for wrong");
-  c->add_option("--out", o->out, "folder for pictures, the frames as a stream file, and report.html; default none")
-      ->type_name("DIR");
-  option_json(*c, o->json);
+  c.add_option("PACK", o->input, "folder that kage vectors wrote").required();
+  c.add_option("--port", o->port, "the serial device of the board, as /dev/ttyUSB0, or sim:NAME")
+      .required()
+      .type_name("PORT");
+  c.add_option("--baud", o->baud, fmt::format("bits per second of the serial device, default {}", board::kDefaultBaud))
+      .check(whole_number(1, 100'000'000))
+      .type_name("N");
+  c.add_option("--timeout", o->timeout,
+               fmt::format("for how long no line may come before the core is said to hang, by the board's clock; "
+                           "default {} and {} in simulation",
+                           kDeviceSeconds, kSimulatedSeconds))
+      .check(real_number(0.001, 86400))
+      .type_name("SECONDS");
+  c.add_option("--loop", o->loop,
+               "once all was right, play the frames over and over for so long, compared by the board itself; 0: until "
+               "Ctrl-C")
+      .check(real_number(0, 1e7))
+      .type_name("SECONDS");
+  c.add_flag("--leave", o->leave, "leave the board at that, LED 2 on for right and LED 3 for wrong");
+  c.add_option("--out", o->out, "folder for pictures, the frames as a stream file, and report.html; default none")
+      .type_name("DIR");
+  option_json(c, o->json);
   o->command = c;
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

@@ -53,7 +53,7 @@ std::uint64_t with_unit(const std::string& option, const std::string& text, cons
   const auto [stop, error] = std::from_chars(text.data(), end, value);
   const std::size_t unit = stop + 1 == end ? units.find(*stop) : std::string::npos;
   if (error != std::errc{} || unit == std::string::npos || value > UINT64_MAX / 2 / factors[unit])
-    throw CLI::ValidationError(option, fmt::format("{} is not {}", text, like));
+    throw ValueError(option, fmt::format("{} is not {}", text, like));
   return value * factors[unit];
 }
 
@@ -210,26 +210,26 @@ int run(const CacheCommand& o) {
 
 }  // namespace
 
-void add_cache(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "cache", "Show, verify or prune the RTL models and verdicts that are kept",
+void add_cache(Program& program, Action& action) {
+  Command c =
+      program.add("cache", "Show, verify or prune the RTL models and verdicts that are kept",
                   "  kage cache                                         # where they lie, how many, how large\n"
                   "  kage cache list                                    # each: key, size, last use, configuration\n"
                   "  kage cache verify                                  # exit code 1 if one is damaged\n"
                   "  kage cache prune --older-than 30d --max-size 2G    # damaged ones go in any case");
   const auto o = std::make_shared<CacheCommand>();
-  c->add_option("WHAT", o->what, "list, verify or prune; without it: folder, number and size")
-      ->check(one_of({"list", "verify", "prune"}))
-      ->type_name("");
-  c->add_option("--older-than", o->older_than, "prune: remove what was not used for so long, like 90m, 12h, 30d")
-      ->type_name("AGE");
-  c->add_option("--max-size", o->max_size,
-                "prune: the least recently used models, then verdicts, until the others fit, like 500M, 2G")
-      ->type_name("SIZE");
-  option_json(*c, o->json);
-  c->callback([o, &action] {
+  c.add_option("WHAT", o->what, "list, verify or prune; without it: folder, number and size")
+      .check(one_of({"list", "verify", "prune"}))
+      .type_name("");
+  c.add_option("--older-than", o->older_than, "prune: remove what was not used for so long, like 90m, 12h, 30d")
+      .type_name("AGE");
+  c.add_option("--max-size", o->max_size,
+               "prune: the least recently used models, then verdicts, until the others fit, like 500M, 2G")
+      .type_name("SIZE");
+  option_json(c, o->json);
+  c.callback([o, &action] {
     if (o->what != "prune" && (!o->older_than.empty() || !o->max_size.empty()))
-      throw CLI::ValidationError("--older-than, --max-size", "belong to kage cache prune");
+      throw ValueError("--older-than, --max-size", "belong to kage cache prune");
     if (!o->older_than.empty()) (void)age_of(o->older_than);
     if (!o->max_size.empty()) (void)bytes_of(o->max_size);
     action = [o] { return run(*o); };

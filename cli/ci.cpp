@@ -8,7 +8,7 @@
 
 namespace kage::cli {
 
-void option_shard(CLI::App& command, cosim::Shard& shard, const std::string& what) {
+void option_shard(Command command, cosim::Shard& shard, const std::string& what) {
   command
       .add_option_function<std::string>(
           "--shard",
@@ -21,25 +21,25 @@ void option_shard(CLI::App& command, cosim::Shard& shard, const std::string& wha
             const auto n = slash ? std::from_chars(i.ptr + 1, end, s.count) : i;
             if (!slash || n.ec != std::errc{} || n.ptr != end || s.count < 1 || s.count > cosim::kMostFrames ||
                 s.index < 1 || s.index > s.count)
-              throw CLI::ValidationError("--shard", text + " is not I/N with I from 1 to N, like 2/4");
+              throw ValueError("--shard", text + " is not I/N with I from 1 to N, like 2/4");
             shard = s;
           },
           what)
-      ->type_name("I/N");
+      .type_name("I/N");
 }
 
-void option_junit(CLI::App& command, std::string& path, const std::string& each) {
-  command.add_option("--junit", path, "write JUnit XML: a test case for each " + each)->type_name("FILE");
+void option_junit(Command command, std::string& path, const std::string& each) {
+  command.add_option("--junit", path, "write JUnit XML: a test case for each " + each).type_name("FILE");
 }
 
-void option_annotate(CLI::App& command, std::string& annotate) {
+void option_annotate(Command command, std::string& annotate) {
   command
       .add_option("--annotate", annotate,
                   "github: print a difference so that GitHub shows it at the RTL's file, default where GITHUB_ACTIONS "
                   "is true; none: never")
-      ->option_text("github|none")
-      ->check(one_of({"github", "none"}))
-      ->type_name("WHERE");
+      .option_text("github|none")
+      .check(one_of({"github", "none"}))
+      .type_name("WHERE");
 }
 
 }  // namespace kage::cli

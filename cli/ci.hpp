@@ -3,9 +3,9 @@
 // Options for continuous integration.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 
+#include "arguments.hpp"
 #include "kage/cosim.hpp"
 
 namespace kage::cli {
@@ -17,11 +17,11 @@ struct CiOptions {
 };
 
 /// --shard; `what` is its help: what of the command the Ith of N parts is.
-void option_shard(CLI::App& command, cosim::Shard& shard,
+void option_shard(Command command, cosim::Shard& shard,
                   const std::string& what =
                       "run the Ith of N parts of the frames of all scenes: frame I - 1 and every "
                       "Nth after it. kage merge joins the reports");
-void option_junit(CLI::App& command, std::string& path, const std::string& each = "frame");
-void option_annotate(CLI::App& command, std::string& annotate);
+void option_junit(Command command, std::string& path, const std::string& each = "frame");
+void option_annotate(Command command, std::string& annotate);
 
 }  // namespace kage::cli

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "options.hpp"
-#include "words.hpp"
 
 namespace kage::cli {
 namespace {
@@ -121,8 +120,8 @@ std::string zsh_command(const CommandWords& command, const std::vector<CommandWo
 
 }  // namespace
 
-std::string bash_completion(const CLI::App& app) {
-  const std::vector<CommandWords> commands = commands_of(app);
+std::string bash_completion(const Program& program) {
+  const std::vector<CommandWords> commands = program.commands();
   std::string text =
       "# bash completion for kage, made by kage help --bash\n"
       "_kage() {\n"
@@ -134,14 +133,14 @@ std::string bash_completion(const CLI::App& app) {
       "  files() { compopt -o filenames; local IFS=$'\\n'; COMPREPLY+=($(compgen -f -- \"$current\")); }\n"
       "  folders() { compopt -o filenames; local IFS=$'\\n'; COMPREPLY+=($(compgen -d -- \"$current\")); }\n";
   text += fmt::format("  if [[ $COMP_CWORD == 1 ]]; then words '{} {}'; return; fi\n",
-                      fmt::join(names_of(commands), " "), fmt::join(option_names(options_of(app)), " "));
+                      fmt::join(names_of(commands), " "), fmt::join(option_names(program.options()), " "));
   text += "  case ${COMP_WORDS[1]} in\n";
   for (const CommandWords& command : commands) text += bash_command(command, commands);
   return text + "  esac\n}\ncomplete -F _kage kage\n";
 }
 
-std::string zsh_completion(const CLI::App& app) {
-  const std::vector<CommandWords> commands = commands_of(app);
+std::string zsh_completion(const Program& program) {
+  const std::vector<CommandWords> commands = program.commands();
   std::string text =
       "#compdef kage\n"
       "# zsh completion for kage, made by kage help --zsh\n"

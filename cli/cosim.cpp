@@ -31,7 +31,7 @@ namespace {
 struct CosimCommand : cosim::CosimOptions {
   std::string json;
   CiOptions ci;
-  const CLI::App* command = nullptr;
+  Command command;
 };
 
 /// JUnit and JSON. Throws Error if they cannot be written: then no file of the run appears, but what it found is told.
@@ -80,7 +80,7 @@ int run(CosimCommand& o) {
   refuse_twice({file_named(o.json), o.ci.junit,
                 o.no_report || o.out.empty() ? "" : (std::filesystem::path(o.out) / "report.html").string()});
   for (const std::string& input : o.inputs) refuse_pack(input);
-  o.lines = command_lines(*o.command);
+  o.lines = command_lines(o.command);
   cosim::Session session(o, terminal());
   session.compare();
   TempFiles files;
@@ -94,11 +94,11 @@ int run(CosimCommand& o) {
 
 }  // namespace
 
-void add_cosim(CLI::App& app, Action& action) {
+void add_cosim(Program& program, Action& action) {
   const auto command = std::make_shared<CosimCommand>();
   CosimCommand& o = *command;
-  CLI::App* c = add_command(
-      app, "cosim", "Send every frame through golden model and RTL and compare every pixel",
+  Command c = program.add(
+      "cosim", "Send every frame through golden model and RTL and compare every pixel",
       "  kage cosim courtyard\n"
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
@@ -115,37 +115,37 @@ void add_cosim(CLI::App& app, Action& action) {
       "have a folder each in DIR, and DIR/report.html is over all; a difference ends its scene, not the others.\n"
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   o.out = "out";
-  option_scenes(*c, o.inputs, Taken::random);
-  c->add_option("--out", o.out, "folder for pictures and report.html, default out")->type_name("DIR");
-  options_of_frames(*c, o);
-  option_json(*c, o.json);
-  option_front_end(*c, o);
-  option_rtl(*c, o.rtl);
-  c->add_option(
+  option_scenes(c, o.inputs, Taken::random);
+  c.add_option("--out", o.out, "folder for pictures and report.html, default out").type_name("DIR");
+  options_of_frames(c, o);
+  option_json(c, o.json);
+  option_front_end(c, o);
+  option_rtl(c, o.rtl);
+  c.add_option(
        "--jobs", o.jobs,
        "RTL models that run at the same time, each with frames of its own; default one per processor, as far as "
        "half of the memory holds 256 MiB for each. The result is the same for every N, except for a defect "
        "that needs a history of several frames: only --jobs 1 gives each frame all frames before it")
-      ->check(whole_number(1, 4096))
-      ->type_name("N");
-  option_cache_verdicts(*c, o.cache_verdicts);
-  c->add_flag("--no-divergence", o.no_divergence,
-              "after a difference do not run the frame again to find the stage that differs first");
-  c->add_flag("--stages", o.stages,
-              "run each frame that came out the same again with monitors, and hold what passes between the RTL's "
-              "modules against the golden core, token by token and pixel by pixel; slow");
-  option_shard(*c, o.shard);
-  option_junit(*c, o.ci.junit);
-  option_annotate(*c, o.ci.annotate);
-  c->add_option("--frame", o.frame, "only this frame of each scene, on a core that has seen none before it")
-      ->check(whole_number(0, cosim::kMostFrames - 1))
-      ->type_name("K");
-  c->add_flag("--no-shrink", o.no_shrink,
-              "keep a random frame that comes out different as it is, not as small as it can be made in a minute");
-  c->add_flag("--coverage", o.coverage, "print what the frames reach: tokens, borders and extremes of fields, errors");
-  c->add_flag("--no-report", o.no_report, "write no report.html");
+      .check(whole_number(1, 4096))
+      .type_name("N");
+  option_cache_verdicts(c, o.cache_verdicts);
+  c.add_flag("--no-divergence", o.no_divergence,
+             "after a difference do not run the frame again to find the stage that differs first");
+  c.add_flag("--stages", o.stages,
+             "run each frame that came out the same again with monitors, and hold what passes between the RTL's "
+             "modules against the golden core, token by token and pixel by pixel; slow");
+  option_shard(c, o.shard);
+  option_junit(c, o.ci.junit);
+  option_annotate(c, o.ci.annotate);
+  c.add_option("--frame", o.frame, "only this frame of each scene, on a core that has seen none before it")
+      .check(whole_number(0, cosim::kMostFrames - 1))
+      .type_name("K");
+  c.add_flag("--no-shrink", o.no_shrink,
+             "keep a random frame that comes out different as it is, not as small as it can be made in a minute");
+  c.add_flag("--coverage", o.coverage, "print what the frames reach: tokens, borders and extremes of fields, errors");
+  c.add_flag("--no-report", o.no_report, "write no report.html");
   o.command = c;
-  c->callback([command, &action] { action = [command] { return run(*command); }; });
+  c.callback([command, &action] { action = [command] { return run(*command); }; });
 }
 
 }  // namespace kage::cli

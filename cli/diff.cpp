@@ -92,33 +92,33 @@ Box parse_region(const std::string& text) {
     const auto [stop, error] = std::from_chars(at, end, *part);
     const char behind = stop == end ? '\0' : *stop;
     if (error != std::errc{} || *part < 0 || behind != kBehind[i++])
-      throw CLI::ValidationError("--region", text + " is not WxH+X+Y, like 64x48+10+20");
+      throw ValueError("--region", text + " is not WxH+X+Y, like 64x48+10+20");
     at = stop + 1;
   }
   return box;
 }
 
-void add_thresholds(CLI::App& c, DiffOptions& limits) {
+void add_thresholds(Command c, DiffOptions& limits) {
   c.add_option("--lsb", limits.lsb, "integers: the same if no further apart than N steps of the files' type")
-      ->check(whole_number())
-      ->type_name("N");
-  CLI::Option* const abs = c.add_option("--abs", limits.abs, "floats: the same if no further apart than X")
-                               ->check(real_number(0, std::numeric_limits<double>::max()))
-                               ->type_name("X");
+      .check(whole_number())
+      .type_name("N");
+  const Option abs = c.add_option("--abs", limits.abs, "floats: the same if no further apart than X")
+                         .check(real_number(0, std::numeric_limits<double>::max()))
+                         .type_name("X");
   c.add_option("--ulp", limits.ulp, "floats: the same if no further apart than N representable numbers")
-      ->check(whole_number())
-      ->type_name("N")
-      ->excludes(abs);
+      .check(whole_number())
+      .type_name("N")
+      .excludes(abs);
   c.add_option("--max-pixels", limits.max_pixels, "same if at most N pixels differ, default 0")
-      ->check(whole_number())
-      ->type_name("N");
+      .check(whole_number())
+      .type_name("N");
   c.add_option("--max-percent", limits.max_percent, "same if at most P percent of the compared pixels differ")
-      ->check(real_number(0, 100))
-      ->type_name("P");
+      .check(real_number(0, 100))
+      .type_name("P");
   c.add_option_function<std::string>(
        "--region", [&limits](const std::string& text) { limits.region = parse_region(text); },
        "compare only the W x H pixels from column X, line Y")
-      ->type_name("WxH+X+Y");
+      .type_name("WxH+X+Y");
   c.add_flag("--ignore-alpha", limits.ignore_alpha, "do not compare the values of alpha");
   c.add_flag(
       "--perceptual", limits.perceptual,
@@ -127,19 +127,19 @@ void add_thresholds(CLI::App& c, DiffOptions& limits) {
   c.add_option_function<std::uint64_t>(
        "--max-memory", [&limits](std::uint64_t mib) { limits.max_bytes = mib << 20U; },
        "refuse pictures that take more memory than so many MiB, default half of what there is")
-      ->check(whole_number(1, 1 << 30))
-      ->type_name("MIB");
+      .check(whole_number(1, 1 << 30))
+      .type_name("MIB");
   c.add_option("--part", limits.part,
                "of files that hold several pictures, as a multi-part EXR: the number of one, from 0")
-      ->check(whole_number(0, std::numeric_limits<int>::max()))
-      ->type_name("N");
+      .check(whole_number(0, std::numeric_limits<int>::max()))
+      .type_name("N");
 }
 
 }  // namespace
 
-void add_diff(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "diff", "Compare pictures, folders of pictures or streams, exactly unless told otherwise",
+void add_diff(Program& program, Action& action) {
+  Command c =
+      program.add("diff", "Compare pictures, folders of pictures or streams, exactly unless told otherwise",
                   "  kage diff a.png b.png\n"
                   "  kage diff a.png b.png --lsb 1 --max-percent 0.01 --out heat.png --blink blink.png --json -\n"
                   "  kage diff a.exr b.exr --ulp 4 --region 64x48+10+20 --ignore-alpha\n"
@@ -152,33 +152,33 @@ void add_diff(CLI::App& app, Action& action) {
                   "Exit codes: 0 same, 1 different, 2 trouble. With --bless: 0 if B is like A now, 1 if it still\n"
                   "holds files that A lacks (or, with --dry-run, would be changed), 2 trouble: B is as it was.");
   const auto o = std::make_shared<DiffCommand>();
-  c->add_option("A", o->a,
-                "a picture (PNG, EXR, or what else docs/diff.md lets through), a folder of them, or a stream file")
-      ->required();
-  c->add_option("B", o->b, "another of the same sort")->required();
-  add_thresholds(*c, o->limits);
-  c->add_option("--mask", o->mask, "compare only pixels that are not 0 in this picture; its size is that of A and B")
-      ->type_name("FILE");
-  c->add_option(
+  c.add_option("A", o->a,
+               "a picture (PNG, EXR, or what else docs/diff.md lets through), a folder of them, or a stream file")
+      .required();
+  c.add_option("B", o->b, "another of the same sort").required();
+  add_thresholds(c, o->limits);
+  c.add_option("--mask", o->mask, "compare only pixels that are not 0 in this picture; its size is that of A and B")
+      .type_name("FILE");
+  c.add_option(
        "--out", o->out,
        "write a heat map: A dimmed, red where they differ; of folders, a folder with heat maps and blink pictures "
        "of what differs")
-      ->type_name("FILE|FOLDER");
-  c->add_option("--blink,--flip", o->blink, "write a picture that shows A and B in turn, as animated PNG")
-      ->type_name("FILE");
-  c->add_option("--junit", o->junit, "write JUnit XML: a test case for each picture, or each frame of a stream")
-      ->type_name("FILE");
-  c->add_option("--exclude", o->exclude, "folders: leave out files whose name matches, as '*.fst'; may be repeated")
-      ->type_name("GLOB")
-      ->allow_extra_args(false);
-  c->add_flag("--bless", o->bless,
-              "make folder B like folder A: copy files that are new or differ, leave those that are the same");
-  c->add_flag("--prune", o->prune, "with --bless: remove pictures and streams that A lacks from B");
-  c->add_flag("--dry-run", o->dry_run, "with --bless: only say what would be done");
-  option_json(*c, o->json);
-  c->callback([o, c, &action] {
-    for (const CLI::Option* option : c->get_options())
-      if (option->count() > 0 && !option->get_lnames().empty()) o->given.push_back("--" + option->get_lnames().front());
+      .type_name("FILE|FOLDER");
+  c.add_option("--blink,--flip", o->blink, "write a picture that shows A and B in turn, as animated PNG")
+      .type_name("FILE");
+  c.add_option("--junit", o->junit, "write JUnit XML: a test case for each picture, or each frame of a stream")
+      .type_name("FILE");
+  c.add_option("--exclude", o->exclude, "folders: leave out files whose name matches, as '*.fst'; may be repeated")
+      .type_name("GLOB")
+      .one_value_each();
+  c.add_flag("--bless", o->bless,
+             "make folder B like folder A: copy files that are new or differ, leave those that are the same");
+  c.add_flag("--prune", o->prune, "with --bless: remove pictures and streams that A lacks from B");
+  c.add_flag("--dry-run", o->dry_run, "with --bless: only say what would be done");
+  option_json(c, o->json);
+  c.callback([o, c, &action] {
+    for (const Option& option : c.options())
+      if (option.count() > 0 && !option.positional()) o->given.push_back(option.long_name());
     action = [o] { return run(*o); };
   });
 }

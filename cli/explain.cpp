@@ -226,28 +226,28 @@ int run(const ExplainCommand& o) {
 
 }  // namespace
 
-void add_explain(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "explain", "Tell the history of a pixel: every token that touched it, and what it did",
-                            "  kage explain courtyard --frame 2 --pixel 316,116\n"
-                            "  kage explain courtyard.kage --pixel 12,40 --json -\n"
-                            "  kage explain courtyard --pixel 316,116 --rtl --check --fault wrong_compare\n"
-                            "  kage explain penumbra --pixel 320,300 --changes   (soft shadows take many tokens)\n"
-                            "docs/glossary.md says what the words mean, docs/stream.md what each token does.");
+void add_explain(Program& program, Action& action) {
+  Command c = program.add("explain", "Tell the history of a pixel: every token that touched it, and what it did",
+                          "  kage explain courtyard --frame 2 --pixel 316,116\n"
+                          "  kage explain courtyard.kage --pixel 12,40 --json -\n"
+                          "  kage explain courtyard --pixel 316,116 --rtl --check --fault wrong_compare\n"
+                          "  kage explain penumbra --pixel 320,300 --changes   (soft shadows take many tokens)\n"
+                          "docs/glossary.md says what the words mean, docs/stream.md what each token does.");
   const auto o = std::make_shared<ExplainCommand>();
-  option_scene(*c, *o, Taken::random);
-  c->add_option("--frame", o->frame, "number of the frame, from 0, default 0")
-      ->check(whole_number(0, std::numeric_limits<int>::max()))
-      ->type_name("N");
-  c->add_option("--pixel", o->pixel, "column and line, from 0 at the upper left")->required()->type_name("X,Y");
-  c->add_flag("--changes", o->changes,
-              "show only tokens that changed the pixel or the line's bias, or at which the RTL differs");
-  auto* const rtl = c->add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
-  c->add_flag("--check", o->check, "exit code 1 if the RTL differs somewhere in the pixel's history")->needs(rtl);
-  options_of_frames(*c, *o);
-  option_front_end(*c, *o);
-  option_json(*c, o->json);
-  option_rtl(*c, o->run);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  option_scene(c, *o, Taken::random);
+  c.add_option("--frame", o->frame, "number of the frame, from 0, default 0")
+      .check(whole_number(0, std::numeric_limits<int>::max()))
+      .type_name("N");
+  c.add_option("--pixel", o->pixel, "column and line, from 0 at the upper left").required().type_name("X,Y");
+  c.add_flag("--changes", o->changes,
+             "show only tokens that changed the pixel or the line's bias, or at which the RTL differs");
+  Option rtl = c.add_flag("--rtl", o->rtl, "run the RTL with monitors too and show what it did beside it");
+  c.add_flag("--check", o->check, "exit code 1 if the RTL differs somewhere in the pixel's history").needs(rtl);
+  options_of_frames(c, *o);
+  option_front_end(c, *o);
+  option_json(c, o->json);
+  option_rtl(c, o->run);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

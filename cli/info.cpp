@@ -212,9 +212,9 @@ int run(const InfoCommand& o) {
 
 }  // namespace
 
-void add_info(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(
-      app, "info", "Describe a scene, or describe and check a stream file",
+void add_info(Program& program, Action& action) {
+  Command c = program.add(
+      "info", "Describe a scene, or describe and check a stream file",
       "  kage info model.glb              what is drawn of it, what is ignored, which configurations draw it\n"
       "  kage info courtyard.kage\n"
       "  kage info courtyard.kage --json -\n"
@@ -222,19 +222,18 @@ void add_info(CLI::App& app, Action& action) {
       "  kage info courtyard.kage --clocks --config four-lanes.yaml\n"
       "A token's index is the one by which errors name it; docs/stream.md says what tokens mean.");
   const auto o = std::make_shared<InfoCommand>();
-  option_scene(*c, *o);
-  option_size(*c, *o);
-  c->add_option("--tokens", o->tokens, "of a stream: print frame N, from 0, token by token (not with --json -)")
-      ->check(whole_number(0, std::numeric_limits<int>::max()))
-      ->type_name("N");
-  c->add_flag(
-      "--clocks", o->clocks,
-      "of a stream: how many clocks a core takes for a line at most: mean, worst line, worst neighbours; at the "
-      "polygon level those of the core behind the front end alone (docs/timing.md)");
-  option_config(*c, *o);
-  option_outside(*c, *o);
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  option_scene(c, *o);
+  option_size(c, *o);
+  c.add_option("--tokens", o->tokens, "of a stream: print frame N, from 0, token by token (not with --json -)")
+      .check(whole_number(0, std::numeric_limits<int>::max()))
+      .type_name("N");
+  c.add_flag("--clocks", o->clocks,
+             "of a stream: how many clocks a core takes for a line at most: mean, worst line, worst neighbours; at the "
+             "polygon level those of the core behind the front end alone (docs/timing.md)");
+  option_config(c, *o);
+  option_outside(c, *o);
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

@@ -93,18 +93,17 @@ int run(const ListCommand& o) {
 
 }  // namespace
 
-void add_list(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "list", "List the built-in scenes, the named configurations and the deliberate defects",
-                  "  kage list\n"
-                  "  kage list configs               # the names alone, one a line\n"
-                  "  kage list --json -");
+void add_list(Program& program, Action& action) {
+  Command c = program.add("list", "List the built-in scenes, the named configurations and the deliberate defects",
+                          "  kage list\n"
+                          "  kage list configs               # the names alone, one a line\n"
+                          "  kage list --json -");
   const auto o = std::make_shared<ListCommand>();
-  c->add_option("WHAT", o->what, "scenes, configs or faults: their names alone; without it: all, with what they are")
-      ->check(one_of({"scenes", "configs", "faults"}))
-      ->type_name("");
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c.add_option("WHAT", o->what, "scenes, configs or faults: their names alone; without it: all, with what they are")
+      .check(one_of({"scenes", "configs", "faults"}))
+      .type_name("");
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

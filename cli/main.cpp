@@ -10,7 +10,6 @@
 #include <exception>
 #include <filesystem>
 #include <new>
-#include <sstream>
 #include <string>
 #include <system_error>
 
@@ -24,7 +23,6 @@
 #include "signals.hpp"
 #include "simd/targets.hpp"
 #include "standard_files.hpp"
-#include "usage.hpp"
 
 namespace {
 
@@ -104,47 +102,34 @@ void find_data() {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("kage: a span-stream rendering core, its golden model and its co-simulation", "kage");
-  app.formatter(help_formatter());
-  app.set_version_flag("-V,--version", build_name());
-  app.footer(
+  Program program(
+      "kage: a span-stream rendering core, its golden model and its co-simulation", build_name(),
       "kage cosim courtyard is a good start; kage help COMMAND explains a command, kage list lists scenes.\n"
       "After a change to the RTL kage regress says in five minutes whether it is still right.\n"
       "Exit codes: 0 same or done, 1 different, 2 trouble.");
-  app.require_subcommand(0, 1);
-  app.option_defaults()->multi_option_policy(
-      CLI::MultiOptionPolicy::TakeLast);  // scripts set defaults that a person overrides
   Action action;
-  add_cosim(app, action);
-  add_render(app, action);
-  add_stream(app, action);
-  add_vectors(app, action);
-  add_board(app, action);
-  add_info(app, action);
-  add_plan(app, action);
-  add_area(app, action);
-  add_sweep(app, action);
-  add_explain(app, action);
-  add_diff(app, action);
-  add_merge(app, action);
-  add_regress(app, action);
-  add_model(app, action);
-  add_order(app, action);
-  add_cache(app, action);
-  add_list(app, action);
-  add_help(app, action);
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() == 0) {  // --help, --version
-      std::ostringstream text;
-      const int rc = app.exit(e, text, text);
-      print_whole(text.str());
-      return rc;
-    }
-    return trouble(explain(app, e));
+  add_cosim(program, action);
+  add_render(program, action);
+  add_stream(program, action);
+  add_vectors(program, action);
+  add_board(program, action);
+  add_info(program, action);
+  add_plan(program, action);
+  add_area(program, action);
+  add_sweep(program, action);
+  add_explain(program, action);
+  add_diff(program, action);
+  add_merge(program, action);
+  add_regress(program, action);
+  add_model(program, action);
+  add_order(program, action);
+  add_cache(program, action);
+  add_list(program, action);
+  add_help(program, action);
+  if (const auto text = program.parse(argc, argv)) {  // --help, --version
+    print_whole(*text);
+    return kSame;
   }
-  if (const std::string value = senseless_value(app); !value.empty()) return trouble(value);
   if (!action) return trouble("no command given; see kage --help");
   return action();
 }

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "options.hpp"
-#include "words.hpp"
 
 namespace kage::cli {
 namespace {
@@ -51,8 +50,8 @@ std::string examples(const std::string& footer) { return fmt::format(".PP\n.nf\n
 
 }  // namespace
 
-std::string man_page(const CLI::App& app) {
-  const std::vector<CommandWords> commands = commands_of(app);
+std::string man_page(const Program& program) {
+  const std::vector<CommandWords> commands = program.commands();
   std::string text = fmt::format(".TH KAGE 1 \"\" \"kage {}\" \"User Commands\"\n.SH NAME\nkage \\- {}\n.SH SYNOPSIS\n",
                                  roff(KAGE_VERSION),
                                  roff("a span-stream rendering core, its golden model and its "
@@ -60,8 +59,8 @@ std::string man_page(const CLI::App& app) {
   for (const CommandWords& command : commands)
     text += (&command == &commands.front() ? "" : ".br\n") + synopsis(command);
   text += ".SH DESCRIPTION\n";
-  text += roff(app.get_description()) + "\n.SH OPTIONS\n";
-  for (const OptionWords& option : options_of(app)) text += option_text(option);
+  text += roff(program.about()) + "\n.SH OPTIONS\n";
+  for (const OptionWords& option : program.options()) text += option_text(option);
   text += ".SH COMMANDS\n";
   for (const CommandWords& command : commands) {
     text += fmt::format(".SS kage {}\n{}.\n", roff(command.name), roff(command.about));

@@ -82,9 +82,9 @@ int run(const MergeCommand& o) {
 
 }  // namespace
 
-void add_merge(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(
-      app, "merge", "Join the reports of all shards of a co-simulation into one",
+void add_merge(Program& program, Action& action) {
+  Command c = program.add(
+      "merge", "Join the reports of all shards of a co-simulation into one",
       "  kage cosim courtyard --shard 1/2 --json 1/cosim.json --out 1\n"
       "  kage cosim courtyard --shard 2/2 --json 2/cosim.json --out 2\n"
       "  kage merge 1/cosim.json 2/cosim.json --json cosim.json --junit cosim.xml --out joined\n"
@@ -93,12 +93,12 @@ void add_merge(CLI::App& app, Action& action) {
       "lie beside their reports or where they were written.\n"
       "Exit code 0: all the same. 1: some different. 2: trouble.");
   const auto o = std::make_shared<MergeCommand>();
-  c->add_option("REPORT", o->inputs, "what kage cosim --shard wrote by --json, of each shard")->required();
-  option_json(*c, o->json);
-  option_junit(*c, o->junit);
-  c->add_option("--out", o->out, "folder for report.html, the page of the joined run; without it none is written")
-      ->type_name("DIR");
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c.add_option("REPORT", o->inputs, "what kage cosim --shard wrote by --json, of each shard").required();
+  option_json(c, o->json);
+  option_junit(c, o->junit);
+  c.add_option("--out", o->out, "folder for report.html, the page of the joined run; without it none is written")
+      .type_name("DIR");
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

@@ -68,31 +68,30 @@ int run(const ModelCommand& o) {
 
 }  // namespace
 
-void add_model(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "model", "Build the RTL models of configurations ahead of their use",
-                  "  kage model\n"
-                  "  kage model default full\n"
-                  "  kage model tiny --netlist ice40\n"
-                  "  kage model default --front-end rtl              (what kage cosim takes with that option)\n"
-                  "  kage model mine.yaml --json -\n"
-                  "  kage model --plan courtyard --plan bunny.obj");
+void add_model(Program& program, Action& action) {
+  Command c = program.add("model", "Build the RTL models of configurations ahead of their use",
+                          "  kage model\n"
+                          "  kage model default full\n"
+                          "  kage model tiny --netlist ice40\n"
+                          "  kage model default --front-end rtl              (what kage cosim takes with that option)\n"
+                          "  kage model mine.yaml --json -\n"
+                          "  kage model --plan courtyard --plan bunny.obj");
   const auto o = std::make_shared<ModelCommand>();
-  c->add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("NAME|FILE");
-  c->add_option(
+  c.add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
+      .take_all()
+      .type_name("NAME|FILE");
+  c.add_option(
        "--plan", o->planned,
        "a scene: the model of the configuration that --config plan takes for it; more than once for more scenes")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->expected(1)
-      ->type_name("SCENE");
-  options_of_pictures(*c, *o);
-  option_fault(*c, o->fault);
-  option_netlist(*c, o->netlist);
-  option_front_end(*c, *o);
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+      .take_all()
+      .expected(1)
+      .type_name("SCENE");
+  options_of_pictures(c, *o);
+  option_fault(c, o->fault);
+  option_netlist(c, o->netlist);
+  option_front_end(c, *o);
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

@@ -19,7 +19,7 @@ namespace kage::cli {
 
 bool is_standard_output(const std::string& value) { return value == "-"; }
 
-CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
+Check whole_number(std::uint64_t least, std::uint64_t most) {
   return {[least, most](const std::string& text) {
             std::uint64_t value = 0;
             const char* const end = text.data() + text.size();
@@ -30,19 +30,19 @@ CLI::Validator whole_number(std::uint64_t least, std::uint64_t most) {
             // CLI11 would take it for octal.
             return text.size() > 1 && text.front() == '0' ? text + " begins with 0" : std::string();
           },
-          "", "whole"};
+          ""};
 }
 
-CLI::Validator one_of(const std::vector<std::string>& words) {
-  const CLI::Validator member = CLI::IsMember(words);  // a copy of its own kind CLI11 takes for a list of words
-  return {[member, words](std::string& text) {
-            const std::string trouble = member(text);
-            return trouble.empty() ? trouble : trouble + meant(text, words);
+Check one_of(const std::vector<std::string>& words) {
+  const std::string all = fmt::format("{{{}}}", fmt::join(words, ","));
+  return {[words, all](const std::string& text) {
+            const bool known = std::find(words.begin(), words.end(), text) != words.end();
+            return known ? std::string() : fmt::format("{} not in {}{}", text, all, meant(text, words));
           },
-          member.get_description(), ""};
+          all};
 }
 
-CLI::Validator real_number(double least, double most, const char* least_text) {
+Check real_number(double least, double most, const char* least_text) {
   return {[least, most, first = least_text != nullptr ? std::string(least_text) : fmt::format("{}", least)](
               const std::string& text) {
             const bool plain = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
@@ -52,10 +52,10 @@ CLI::Validator real_number(double least, double most, const char* least_text) {
             return value >= least && value <= most ? std::string()
                                                    : text + fmt::format(" is not in {} .. {}", first, most);
           },
-          "", "number"};
+          ""};
 }
 
-void option_size(CLI::App& command, cosim::SourceOptions& options) {
+void option_size(Command command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
           "--size",
@@ -64,42 +64,41 @@ void option_size(CLI::App& command, cosim::SourceOptions& options) {
             cosim::Size size;
             const auto w = std::from_chars(text.data(), end, size.width);
             if (w.ec != std::errc{} || w.ptr == end || *w.ptr != 'x')
-              throw CLI::ValidationError("--size", text + " is not WxH, like 640x480");
+              throw ValueError("--size", text + " is not WxH, like 640x480");
             const auto h = std::from_chars(w.ptr + 1, end, size.height);
-            if (h.ec != std::errc{} || h.ptr != end)
-              throw CLI::ValidationError("--size", text + " is not WxH, like 640x480");
+            if (h.ec != std::errc{} || h.ptr != end) throw ValueError("--size", text + " is not WxH, like 640x480");
             if (size.width < 1 || size.width > kMaxSize || size.height < 1 || size.height > kMaxSize)
-              throw CLI::ValidationError("--size", fmt::format("{}: width and height are 1 .. {}", text, kMaxSize));
+              throw ValueError("--size", fmt::format("{}: width and height are 1 .. {}", text, kMaxSize));
             options.size = size;
             options.size_given = true;
           },
           fmt::format("picture size, default {}x{}", options.size.width, options.size.height))
-      ->type_name("WxH");
+      .type_name("WxH");
 }
 
-static void option_frames(CLI::App& command, cosim::SourceOptions& options, const char* usual) {
+static void option_frames(Command command, cosim::SourceOptions& options, const char* usual) {
   command
       .add_option("--frames", options.frames,
                   fmt::format("number of frames, spread over the animation or the camera path, default: {}", usual))
-      ->check(whole_number(1, cosim::kMostFrames))
-      ->type_name("N");
+      .check(whole_number(1, cosim::kMostFrames))
+      .type_name("N");
 }
 
-void option_config(CLI::App& command, cosim::SourceOptions& options) {
+void option_config(Command command, cosim::SourceOptions& options) {
   command
       .add_option("--config", options.config,
                   "the core's parameters: a name in rtl/defs/configs.yaml, a YAML file of PARAMETER: value lines, or "
                   "plan for those that kage plan finds for the scene; default: a cheap name that can draw it all")
-      ->type_name("NAME|FILE");
+      .type_name("NAME|FILE");
 }
 
-void option_seed(CLI::App& command, std::uint64_t& seed) {
-  command.add_option("--seed", seed, "seed of everything random, default 1")->check(whole_number())->type_name("S");
+void option_seed(Command command, std::uint64_t& seed) {
+  command.add_option("--seed", seed, "seed of everything random, default 1").check(whole_number()).type_name("S");
 }
 
-void option_json(CLI::App& command, std::string& json) {
+void option_json(Command command, std::string& json) {
   command.add_option("--json", json, "write the result as JSON; - is standard output, with nothing else on it")
-      ->type_name(std::string("FILE") + kOrStandardOutput);
+      .type_name(std::string("FILE") + kOrStandardOutput);
 }
 
 static std::string what_is_taken(Taken taken) {
@@ -112,75 +111,75 @@ static std::string what_is_taken(Taken taken) {
                                   "random:mixed)");
 }
 
-void option_scene(CLI::App& command, cosim::SourceOptions& options, Taken taken) {
-  command.add_option("SCENE", options.input, what_is_taken(taken))->required();
+void option_scene(Command command, cosim::SourceOptions& options, Taken taken) {
+  command.add_option("SCENE", options.input, what_is_taken(taken)).required();
 }
 
-void option_scenes(CLI::App& command, std::vector<std::string>& inputs, Taken taken) {
-  command.add_option("SCENE", inputs, "one or more, each " + what_is_taken(taken))->required();
+void option_scenes(Command command, std::vector<std::string>& inputs, Taken taken) {
+  command.add_option("SCENE", inputs, "one or more, each " + what_is_taken(taken)).required();
 }
 
-static void option_degrade(CLI::App& command, cosim::SourceOptions& options) {
+static void option_degrade(Command command, cosim::SourceOptions& options) {
   command.add_flag(
       "--degrade", options.degrade,
       "where the configuration lacks something, draw without it (no shadows, those of one light, hard ones; flat, grey "
       "or opaque instead of smooth, coloured or translucent) instead of refusing");
 }
 
-static void option_units_only(CLI::App& command, cosim::SourceOptions& options) {
+static void option_units_only(Command command, cosim::SourceOptions& options) {
   command.add_flag(
       "--units-only", options.units_only,
       "refuse a frame in which a convex polyhedron finds no expansion unit, instead of drawing it by spans");
 }
 
-static void option_translucent(CLI::App& command, cosim::SourceOptions& options) {
+static void option_translucent(Command command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
           "--order", [&options](const std::string& name) { options.order = cosim::translucent_ways().at(name); },
           "order of translucent faces, default exact; the others show what cheaper orders get wrong")
-      ->option_text("exact|centroid|submission")
-      ->check(one_of({"exact", "centroid", "submission"}))
-      ->type_name("WAY");
+      .option_text("exact|centroid|submission")
+      .check(one_of({"exact", "centroid", "submission"}))
+      .type_name("WAY");
   command
       .add_option("--alpha", options.alpha,
                   "multiply the alpha of every material by A, 1/255 to 1; below 1 all is translucent")
-      ->option_text("A")
-      ->check(real_number(1.0 / 255, 1, "1/255"))
-      ->type_name("A");
+      .option_text("A")
+      .check(real_number(1.0 / 255, 1, "1/255"))
+      .type_name("A");
 }
 
-static void option_cull(CLI::App& command, cosim::SourceOptions& options) {
+static void option_cull(Command command, cosim::SourceOptions& options) {
   command.add_flag("--cull", options.cull,
                    "leave out faces of single-sided materials that are turned away from the eye; they cast shadows all "
                    "the same");
 }
 
-static void option_lights(CLI::App& command, cosim::SourceOptions& options) {
+static void option_lights(Command command, cosim::SourceOptions& options) {
   command
       .add_option("--samples", options.samples,
                   fmt::format("points that stand for an area light (a disc, rectangle or sphere); "
                               "default {}",
                               options.samples))
-      ->check(whole_number(1, kMaxSamples))
-      ->type_name("N");
+      .check(whole_number(1, kMaxSamples))
+      .type_name("N");
   command
       .add_option("--classes", options.classes,
                   fmt::format("normals that the table of several lights tells apart, spread evenly; default {}",
                               options.classes))
-      ->check(whole_number(1, kMaxClasses))
-      ->type_name("N");
+      .check(whole_number(1, kMaxClasses))
+      .type_name("N");
 }
 
-static void option_sub_bits(CLI::App& command, cosim::SourceOptions& options) {
+static void option_sub_bits(Command command, cosim::SourceOptions& options) {
   command
       .add_option("--sub-bits", options.sub_bits,
                   fmt::format("round positions on the screen to 2^-N pixel, {} to {}; default {}", kLeastSubBits,
                               kMostSubBits, options.sub_bits))
-      ->check(whole_number(kLeastSubBits, kMostSubBits))
-      ->type_name("N");
+      .check(whole_number(kLeastSubBits, kMostSubBits))
+      .type_name("N");
 }
 
-void option_max_fragments(CLI::App& command, cosim::SourceOptions& options) {
+void option_max_fragments(Command command, cosim::SourceOptions& options) {
   command
       .add_option(
           "--max-fragments", options.max_fragments,
@@ -188,11 +187,11 @@ void option_max_fragments(CLI::App& command, cosim::SourceOptions& options) {
                       "four times the faces, whichever is more: faces through one another are cut into more and more "
                       "(docs/order.md)",
                       OrderBuildOptions::kFragments))
-      ->check(whole_number())
-      ->type_name("N");
+      .check(whole_number())
+      .type_name("N");
 }
 
-void option_front_end(CLI::App& command, cosim::SourceOptions& options) {
+void option_front_end(Command command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
           "--front-end",
@@ -204,24 +203,24 @@ void option_front_end(CLI::App& command, cosim::SourceOptions& options) {
               "who makes spans of polygons, default host: rtl sends frames at the polygon level, and the "
               "core gets a front end (ACTIVE, {} polygons at once if the configuration has none; docs/stream.md)",
               kUsualActive))
-      ->option_text("host|rtl")
-      ->check(one_of({"host", "rtl"}))
-      ->type_name("WHO");
+      .option_text("host|rtl")
+      .check(one_of({"host", "rtl"}))
+      .type_name("WHO");
 }
 
-void option_threads(CLI::App& command, cosim::SourceOptions& options) {
+void option_threads(Command command, cosim::SourceOptions& options) {
   command.add_option("--threads", options.threads, "threads to use, default: one per processor")
-      ->check(whole_number(1, 1024))
-      ->type_name("N");
+      .check(whole_number(1, 1024))
+      .type_name("N");
 }
 
-void option_outside(CLI::App& command, cosim::SourceOptions& options) {
+void option_outside(Command command, cosim::SourceOptions& options) {
   command.add_flag("--allow-outside", options.allow_outside,
                    "read files that a scene's file names (buffers, materials) wherever they lie, instead of refusing "
                    "those outside its folder");
 }
 
-void option_level(CLI::App& command, cosim::SourceOptions& options) {
+void option_level(Command command, cosim::SourceOptions& options) {
   command
       .add_option_function<std::string>(
           "--level",
@@ -234,25 +233,25 @@ void option_level(CLI::App& command, cosim::SourceOptions& options) {
               "makes the spans (docs/stream.md): a core with ACTIVE, which is {} for a scene whose configuration "
               "has none",
               kUsualActive))
-      ->option_text("spans|polygons")
-      ->check(one_of({"spans", "polygons"}))
-      ->type_name("LEVEL");
+      .option_text("spans|polygons")
+      .check(one_of({"spans", "polygons"}))
+      .type_name("LEVEL");
 }
 
-void option_fault(CLI::App& command, std::string& fault) {
+void option_fault(Command command, std::string& fault) {
   command
       .add_option("--fault", fault,
                   "build the RTL with a deliberate defect, to see it found: a patch of verif/cosim/model/faults")
-      ->type_name("NAME");
+      .type_name("NAME");
 }
 
-void option_cache_verdicts(CLI::App& command, bool& cache) {
+void option_cache_verdicts(Command command, bool& cache) {
   // Taken as they are read, so that the last one counts.
   const auto flag = [&](const char* name, bool value, const char* about) {
     command
-        .add_flag_callback(
+        .add_flag_function(
             name, [&cache, value] { cache = value; }, about)
-        ->trigger_on_parse();
+        .in_order_of_parsing();
   };
   flag("--cache-verdicts", true,
        "skip a frame that an earlier run with this option found the same. Its words, the frame before it (with "
@@ -264,7 +263,7 @@ void option_cache_verdicts(CLI::App& command, bool& cache) {
        "run every frame, also where --cache-verdicts stands before this option; the default");
 }
 
-void options_of_pictures(CLI::App& command, cosim::SourceOptions& options, const char* frames) {
+void options_of_pictures(Command command, cosim::SourceOptions& options, const char* frames) {
   option_size(command, options);
   option_frames(command, options, frames);
   option_translucent(command, options);
@@ -277,7 +276,7 @@ void options_of_pictures(CLI::App& command, cosim::SourceOptions& options, const
   option_outside(command, options);
 }
 
-void options_of_frames(CLI::App& command, cosim::SourceOptions& options) {
+void options_of_frames(Command command, cosim::SourceOptions& options) {
   option_config(command, options);
   option_degrade(command, options);
   option_units_only(command, options);

@@ -268,29 +268,29 @@ int run(const OrderCommand& o) {
 
 }  // namespace
 
-void add_order(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(
-      app, "order", "Put a mesh's polygons in order, back to front, from many eyes, and measure each way to do it",
+void add_order(Program& program, Action& action) {
+  Command c = program.add(
+      "order", "Put a mesh's polygons in order, back to front, from many eyes, and measure each way to do it",
       "  kage order horse.3ds\n"
       "  kage order horse.3ds --save horse.bsp --plot horse.svg --json horse.json\n"
       "  kage order horse.bsp --eyes 1000 --seed 7\n"
       "Exit code 0: all ways gave the same order after every step; 1: they did not.");
   const auto o = std::make_shared<OrderCommand>();
-  c->add_option("MESH", o->input, "a mesh or scene, as for render, or a tree that --save wrote")->required();
-  c->add_option("--eyes", o->eyes, "eyes for each step angle, default 200")
-      ->check(whole_number(2, 1000000))
-      ->type_name("N");
-  c->add_option("--repeats", o->repeats, "times are the median of N runs, default 5")
-      ->check(whole_number(1, 1000))
-      ->type_name("N");
-  option_max_fragments(*c, *o);
-  c->add_option("--save", o->save, "write the tree")->type_name("FILE");
-  c->add_option("--plot", o->plot, "write a plot of time against step angle, SVG")->type_name("FILE");
-  option_seed(*c, o->seed);
-  option_threads(*c, *o);
-  option_outside(*c, *o);
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c.add_option("MESH", o->input, "a mesh or scene, as for render, or a tree that --save wrote").required();
+  c.add_option("--eyes", o->eyes, "eyes for each step angle, default 200")
+      .check(whole_number(2, 1000000))
+      .type_name("N");
+  c.add_option("--repeats", o->repeats, "times are the median of N runs, default 5")
+      .check(whole_number(1, 1000))
+      .type_name("N");
+  option_max_fragments(c, *o);
+  c.add_option("--save", o->save, "write the tree").type_name("FILE");
+  c.add_option("--plot", o->plot, "write a plot of time against step angle, SVG").type_name("FILE");
+  option_seed(c, o->seed);
+  option_threads(c, *o);
+  option_outside(c, *o);
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

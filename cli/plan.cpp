@@ -339,22 +339,22 @@ int run(const PlanCommand& o) {
 
 }  // namespace
 
-void add_plan(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "plan", "Find the least configuration of the core that draws scenes",
-                            "  kage plan courtyard > mine.yaml && kage cosim courtyard --config mine.yaml\n"
-                            "  kage plan bunny.obj --prefer words --json -\n"
-                            "  kage plan courtyard glass --device ecp5-25f --fps 60\n"
-                            "  kage plan penumbra --samples 64 --max-z 1e-4 --max-color 2\n"
-                            "  kage plan courtyard --guarantee measured --max-wrong 20\n"
-                            "  kage plan courtyard --front-end rtl\n"
-                            "Each parameter comes with its reason; docs/plan.md has the inequalities.");
+void add_plan(Program& program, Action& action) {
+  Command c = program.add("plan", "Find the least configuration of the core that draws scenes",
+                          "  kage plan courtyard > mine.yaml && kage cosim courtyard --config mine.yaml\n"
+                          "  kage plan bunny.obj --prefer words --json -\n"
+                          "  kage plan courtyard glass --device ecp5-25f --fps 60\n"
+                          "  kage plan penumbra --samples 64 --max-z 1e-4 --max-color 2\n"
+                          "  kage plan courtyard --guarantee measured --max-wrong 20\n"
+                          "  kage plan courtyard --front-end rtl\n"
+                          "Each parameter comes with its reason; docs/plan.md has the inequalities.");
   const auto o = std::make_shared<PlanCommand>();
-  option_scenes(*c, o->inputs);
-  c->add_option("--max-z", o->max_z,
-                "how far a stored depth may be off, as a share of the depth range; default one step of 24 bits")
-      ->check(real_number(1e-9, 1))
-      ->type_name("SHARE");
-  c->add_option_function<int>(
+  option_scenes(c, o->inputs);
+  c.add_option("--max-z", o->max_z,
+               "how far a stored depth may be off, as a share of the depth range; default one step of 24 bits")
+      .check(real_number(1e-9, 1))
+      .type_name("SHARE");
+  c.add_option_function<int>(
        "--max-color",
        [limits = &o->plan.limits](const int& steps) {
          limits->color = steps;
@@ -362,22 +362,22 @@ void add_plan(CLI::App& app, Action& action) {
        },
        "how many steps of 255 a colour may be from exact arithmetic; default 1, or the least that any core is bound to "
        "keep")
-      ->check(whole_number(1, 255))
-      ->type_name("STEPS");
-  c->add_option(
+      .check(whole_number(1, 255))
+      .type_name("STEPS");
+  c.add_option(
        "--max-wrong", o->max_wrong,
        "with --guarantee measured: how many pixels in a million may show another face or shadow than the oracle, "
        "near ties too; then depth is limited by --max-z only where that is given")
-      ->check(real_number(0, 1e6))
-      ->type_name("PPM");
-  c->add_option_function<std::string>(
+      .check(real_number(0, 1e6))
+      .type_name("PPM");
+  c.add_option_function<std::string>(
        "--guarantee", [o](const std::string& name) { o->measured = name == "measured"; },
        "bound: each width follows from an inequality, whatever the scene; measured: each width was lowered until the "
        "pictures of these frames were over a limit; default bound")
-      ->option_text("bound|measured")
-      ->check(one_of({"bound", "measured"}))
-      ->type_name("HOW");
-  c->add_option_function<std::string>(
+      .option_text("bound|measured")
+      .check(one_of({"bound", "measured"}))
+      .type_name("HOW");
+  c.add_option_function<std::string>(
        "--prefer", [plan = &o->plan](const std::string& name) { plan->prefer = preferences().at(name); },
        fmt::format(
            "which of several that serve: speed has the fewest clocks, and of those within {0:.0f} % of them the fewest "
@@ -385,32 +385,32 @@ void add_plan(CLI::App& app, Action& action) {
            "clocks; "
            "words has the shortest stream; default area",
            100 * kAsGood))
-      ->option_text("speed|area|words")
-      ->check(one_of({"speed", "area", "words"}))
-      ->type_name("WHAT");
-  auto* clock = c->add_option("--clock", o->clock, "the core's clock in MHz, to keep up with a display")
-                    ->check(real_number(0.001, 10000))
-                    ->type_name("MHZ");
-  c->add_option("--device", o->device,
-                "the same: the clock of the slowest core that was placed on a device of constraints/figures.json")
-      ->excludes(clock)
-      ->type_name("NAME");
-  c->add_option("--fps", o->fps, "frames a second of the display, default 60")
-      ->check(real_number(0.001, 100000))
-      ->type_name("F");
-  c->add_option("--total-lines", o->total_lines,
-                "lines in a frame's time of the display, blanking included; default 525 for 480, 750 for 720, 1125 for "
-                "1080, 2250 for 2160, else a sixteenth more than the picture's; at least one more than the picture's")
-      ->check(whole_number(1, 100000))
-      ->type_name("N");
-  option_front_end(*c, *o);
-  c->get_option("--front-end")
-      ->description(
+      .option_text("speed|area|words")
+      .check(one_of({"speed", "area", "words"}))
+      .type_name("WHAT");
+  const Option clock = c.add_option("--clock", o->clock, "the core's clock in MHz, to keep up with a display")
+                           .check(real_number(0.001, 10000))
+                           .type_name("MHZ");
+  c.add_option("--device", o->device,
+               "the same: the clock of the slowest core that was placed on a device of constraints/figures.json")
+      .excludes(clock)
+      .type_name("NAME");
+  c.add_option("--fps", o->fps, "frames a second of the display, default 60")
+      .check(real_number(0.001, 100000))
+      .type_name("F");
+  c.add_option("--total-lines", o->total_lines,
+               "lines in a frame's time of the display, blanking included; default 525 for 480, 750 for 720, 1125 for "
+               "1080, 2250 for 2160, else a sixteenth more than the picture's; at least one more than the picture's")
+      .check(whole_number(1, 100000))
+      .type_name("N");
+  option_front_end(c, *o);
+  c.option("--front-end")
+      .description(
           "who makes spans of polygons, default host: with rtl the core gets a front end, and ACTIVE is the most "
           "polygons that a line has, as far as a front end keeps so many (docs/plan.md)");
-  options_of_pictures(*c, *o);
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  options_of_pictures(c, *o);
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

@@ -36,7 +36,7 @@ struct RegressCommand {
   std::string json;
   CiOptions ci;
   bool list = false;  // the runs are told, and none is made
-  const CLI::App* command = nullptr;
+  Command command;
 };
 
 /// A case for each run; classname kage.regress.CONFIGURATION.
@@ -128,8 +128,8 @@ void write_reports(const RegressCommand& o, cosim::Regress& regress, report::Run
 }
 
 int run(RegressCommand& o) {
-  o.how.again = command_line(*o.command);
-  if (o.command->get_option(kFrontEnd)->count() != 0) o.how.level = o.source.level;
+  o.how.again = command_line(o.command);
+  if (o.command.option(kFrontEnd).count() != 0) o.how.level = o.source.level;
   if (o.list) {
     for (const cosim::PlannedRun& run : cosim::Regress(o.how, terminal()).list(std::max(1, o.how.rounds)))
       fmt::print("{}: {}\n", run.name, run.options.lines.again);
@@ -163,9 +163,9 @@ int run(RegressCommand& o) {
 
 }  // namespace
 
-void add_regress(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(
-      app, "regress", "Run scenes and random frames through all configurations until the time is over",
+void add_regress(Program& program, Action& action) {
+  Command c = program.add(
+      "regress", "Run scenes and random frames through all configurations until the time is over",
       "  kage regress\n"
       "  kage regress --minutes 30 --seed 7 --junit regress.xml\n"
       "  kage regress --config glass --config mine.yaml --minutes 1\n"
@@ -182,43 +182,43 @@ void add_regress(CLI::App& app, Action& action) {
       "(Ctrl-C), 143 (SIGTERM) or 129 (SIGHUP), if no difference was found before.");
   const auto o = std::make_shared<RegressCommand>();
   o->how.out = "out";
-  auto* const minutes =
-      c->add_option("--minutes", o->how.minutes, "time to run, default 5; the runs that are under way then end early")
-          ->check(real_number(0.01, 10000))
-          ->type_name("M");
-  c->add_option("--rounds", o->how.rounds, "run N rounds instead of a time, so that every machine runs the same")
-      ->check(whole_number(1, 1000000))
-      ->excludes(minutes)
-      ->type_name("N");
-  auto* const list = c->add_flag("--list", o->list,
-                                 "run nothing, but print the runs of the first round, or of --rounds N, as commands")
-                         ->excludes(minutes);
-  c->add_option("--config", o->how.configs,
-                "a configuration, by name or file; may be given several times. Default: all named ones")
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("NAME|FILE");
-  option_seed(*c, o->how.seed);
-  option_front_end(*c, o->source);
-  c->get_option(kFrontEnd)->description(
+  const Option minutes =
+      c.add_option("--minutes", o->how.minutes, "time to run, default 5; the runs that are under way then end early")
+          .check(real_number(0.01, 10000))
+          .type_name("M");
+  c.add_option("--rounds", o->how.rounds, "run N rounds instead of a time, so that every machine runs the same")
+      .check(whole_number(1, 1000000))
+      .excludes(minutes)
+      .type_name("N");
+  Option list =
+      c.add_flag("--list", o->list, "run nothing, but print the runs of the first round, or of --rounds N, as commands")
+          .excludes(minutes);
+  c.add_option("--config", o->how.configs,
+               "a configuration, by name or file; may be given several times. Default: all named ones")
+      .one_value_each()
+      .take_all()
+      .type_name("NAME|FILE");
+  option_seed(c, o->how.seed);
+  option_front_end(c, o->source);
+  c.option(kFrontEnd).description(
       "who makes spans of polygons, default rtl in configurations with a front end (ACTIVE), else host; rtl gives the "
       "others a front end, too (docs/regress.md)");
-  c->add_option("--out", o->how.out, "folder for report.html and what is found out about a difference, default out")
-      ->type_name("DIR");
-  option_json(*c, o->json);
-  option_junit(*c, o->ci.junit, "run");
-  option_annotate(*c, o->ci.annotate);
-  c->add_option(
+  c.add_option("--out", o->how.out, "folder for report.html and what is found out about a difference, default out")
+      .type_name("DIR");
+  option_json(c, o->json);
+  option_junit(c, o->ci.junit, "run");
+  option_annotate(c, o->ci.annotate);
+  c.add_option(
        "--jobs", o->how.jobs,
        "runs at a time; default one per processor, at most as many as half of the memory holds 256 MiB for each")
-      ->check(whole_number(1, 4096))
-      ->type_name("N");
-  for (const char* result : {"--json", "--junit", "--annotate", "--jobs"}) list->excludes(c->get_option(result));
-  c->add_flag("--no-divergence", o->how.no_divergence,
-              "after a difference do not look for the stage that differs first");
-  option_defect(*c, o->how.rtl);
+      .check(whole_number(1, 4096))
+      .type_name("N");
+  for (const char* result : {"--json", "--junit", "--annotate", "--jobs"}) list.excludes(c.option(result));
+  c.add_flag("--no-divergence", o->how.no_divergence,
+             "after a difference do not look for the stage that differs first");
+  option_defect(c, o->how.rtl);
   o->command = c;
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

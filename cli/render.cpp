@@ -94,25 +94,24 @@ int run(const RenderCommand& o) {
 
 }  // namespace
 
-void add_render(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(app, "render", "Draw a scene or a stream with the golden model",
-                            "  kage render courtyard --out pictures\n"
-                            "  kage render horse.3ds --size 800x600 --frames 1\n"
-                            "  kage render courtyard.kage --exr --json -\n"
-                            "  kage render courtyard --sub-bits 4 --frames 1 --error-map\n"
-                            "The pictures appear together when the last one is drawn.");
+void add_render(Program& program, Action& action) {
+  Command c = program.add("render", "Draw a scene or a stream with the golden model",
+                          "  kage render courtyard --out pictures\n"
+                          "  kage render horse.3ds --size 800x600 --frames 1\n"
+                          "  kage render courtyard.kage --exr --json -\n"
+                          "  kage render courtyard --sub-bits 4 --frames 1 --error-map\n"
+                          "The pictures appear together when the last one is drawn.");
   const auto o = std::make_shared<RenderCommand>();
   o->out = "out";
-  option_scene(*c, *o);
-  c->add_option("--out", o->out, "folder for the pictures, default out")->type_name("DIR");
-  c->add_flag("--exr", o->exr, "write EXR instead of PNG");
-  c->add_flag(
-      "--error-map", o->error_map,
-      "show what is wrong in each picture of a scene, by the exact oracle and the finest picture: "
-      "NAME_error.png, and NAME_error_SOURCE.png for each source of error alone; docs/sweep.md has the colours");
-  options_of_frames(*c, *o);
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  option_scene(c, *o);
+  c.add_option("--out", o->out, "folder for the pictures, default out").type_name("DIR");
+  c.add_flag("--exr", o->exr, "write EXR instead of PNG");
+  c.add_flag("--error-map", o->error_map,
+             "show what is wrong in each picture of a scene, by the exact oracle and the finest picture: "
+             "NAME_error.png, and NAME_error_SOURCE.png for each source of error alone; docs/sweep.md has the colours");
+  options_of_frames(c, *o);
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

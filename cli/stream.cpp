@@ -106,9 +106,9 @@ int run(const Options& o) {
 
 }  // namespace
 
-void add_stream(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "stream", "Write the frames of a scene as a stream file",
+void add_stream(Program& program, Action& action) {
+  Command c =
+      program.add("stream", "Write the frames of a scene as a stream file",
                   "  kage stream courtyard --out courtyard.kage\n"
                   "  kage stream model.glb --size 320x240 --frames 4 --config full --out model.kage\n"
                   "  kage stream courtyard.kage --frames 2 --out short.kage\n"
@@ -117,14 +117,14 @@ void add_stream(CLI::App& app, Action& action) {
                   "A stream file is checked and copied: --frames takes its first ones, and --config may change\n"
                   "what affects no pixel. Frames that are kept unchecked (PORT) stay so.");
   const auto o = std::make_shared<Options>();
-  option_scene(*c, *o);
-  c->add_option("--out", o->out, "the stream file; - is standard output, which gets frame after frame, as a pipe does")
-      ->required()
-      ->type_name(std::string("FILE") + kOrStandardOutput);
-  options_of_frames(*c, *o);
-  option_level(*c, *o);
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  option_scene(c, *o);
+  c.add_option("--out", o->out, "the stream file; - is standard output, which gets frame after frame, as a pipe does")
+      .required()
+      .type_name(std::string("FILE") + kOrStandardOutput);
+  options_of_frames(c, *o);
+  option_level(c, *o);
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

@@ -232,61 +232,60 @@ int run(SweepCommand& o) {
 
 }  // namespace
 
-void add_sweep(CLI::App& app, Action& action) {
-  CLI::App* c =
-      add_command(app, "sweep", "Measure accuracy, speed and area over configurations",
-                  "  kage sweep courtyard\n"
-                  "  kage sweep courtyard --no-area --no-cosim --csv trade.csv\n"
-                  "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
-                  "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
-                  "  kage sweep courtyard --axes LANES=1,4,16 --place\n"
-                  "  kage sweep courtyard --config plan --axes Z_BITS=16,18,20 --store plan.sqlite\n"
-                  "  kage sweep courtyard --resume --out trade\n"
-                  "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
+void add_sweep(Program& program, Action& action) {
+  Command c = program.add("sweep", "Measure accuracy, speed and area over configurations",
+                          "  kage sweep courtyard\n"
+                          "  kage sweep courtyard --no-area --no-cosim --csv trade.csv\n"
+                          "  kage sweep penumbra --axes SAMPLES=1,4,15,64 --axes Z_BITS=12,16,20,24 --json -\n"
+                          "  kage sweep courtyard --axes Z_BITS=12,16 --axes LANES=1,4,16 --grid\n"
+                          "  kage sweep courtyard --axes LANES=1,4,16 --place\n"
+                          "  kage sweep courtyard --config plan --axes Z_BITS=16,18,20 --store plan.sqlite\n"
+                          "  kage sweep courtyard --resume --out trade\n"
+                          "Each row is in the store as soon as it is measured; docs/sweep.md says how each figure is.");
   const auto o = std::make_shared<SweepCommand>();
   o->size = {320, 240};
-  option_scenes(*c, o->inputs);
-  c->add_option("--axes", o->axes,
-                "an axis and its values, each of which is measured alone about the base: a parameter of the core, "
-                "SUB_BITS, SAMPLES, CLASSES, ORDER or SIZE. Default: some 60 configurations")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("AXIS=V,...");
-  c->add_flag("--grid", o->grid, "every combination of the values of --axes");
-  c->add_option("--seeds", o->seeds, "so many patterns of the samples of soft lights, default 1")
-      ->check(whole_number(1, 1000))
-      ->type_name("N");
-  option_config(*c, *o);
-  c->add_option("--store", o->store, "the SQLite file that keeps the results, default sweep.sqlite")->type_name("FILE");
-  c->add_flag("--resume", o->resume, "go on with a store: what it has is not measured again");
-  c->add_option("--take", o->take, "take the results of other stores, as of other shards")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->type_name("FILE");
-  option_shard(*c, o->shard, "run the Ith of N parts of the list: run I - 1 and every Nth after it. --take joins them");
-  c->add_option("--jobs", o->jobs, "runs at a time, default: one per processor. Measurements of time run alone")
-      ->check(whole_number(1, 1024))
-      ->type_name("N");
-  c->add_flag("--no-area", o->no_area, "estimate look-up tables and flip-flops: yosys takes half a minute for a core");
-  c->add_flag("--no-cosim", o->no_cosim, "take clocks from the design: an RTL model takes a minute to build");
-  c->add_flag("--no-flip", o->no_flip, "leave out FLIP");
-  c->add_flag("--place", o->place,
-              "place each core and tell its clock, a minute to some minutes each: on ecp5-85f, or --place=DEVICE of "
-              "constraints/devices.yaml")
-      ->type_name("[=DEVICE]");
-  c->add_flag("--list", o->list, "print what would be measured, and measure nothing");
-  c->add_option("--csv", o->csv, "write the rows as CSV; - is standard output, with nothing else on it")
-      ->type_name(std::string("FILE") + kOrStandardOutput);
-  c->add_option("--out", o->out,
-                fmt::format("folder for {}, the page of all rows with their pictures, on which the cheapest "
-                            "configuration within limits is found, and for plots of error against cost as SVG and PNG",
-                            explore::kPageName))
-      ->type_name("DIR");
-  options_of_pictures(*c, *o, "two, or the scene's one");
-  option_json(*c, o->json);
-  c->callback([o, &action, c] {
+  option_scenes(c, o->inputs);
+  c.add_option("--axes", o->axes,
+               "an axis and its values, each of which is measured alone about the base: a parameter of the core, "
+               "SUB_BITS, SAMPLES, CLASSES, ORDER or SIZE. Default: some 60 configurations")
+      .expected(1)
+      .take_all()
+      .type_name("AXIS=V,...");
+  c.add_flag("--grid", o->grid, "every combination of the values of --axes");
+  c.add_option("--seeds", o->seeds, "so many patterns of the samples of soft lights, default 1")
+      .check(whole_number(1, 1000))
+      .type_name("N");
+  option_config(c, *o);
+  c.add_option("--store", o->store, "the SQLite file that keeps the results, default sweep.sqlite").type_name("FILE");
+  c.add_flag("--resume", o->resume, "go on with a store: what it has is not measured again");
+  c.add_option("--take", o->take, "take the results of other stores, as of other shards")
+      .expected(1)
+      .take_all()
+      .type_name("FILE");
+  option_shard(c, o->shard, "run the Ith of N parts of the list: run I - 1 and every Nth after it. --take joins them");
+  c.add_option("--jobs", o->jobs, "runs at a time, default: one per processor. Measurements of time run alone")
+      .check(whole_number(1, 1024))
+      .type_name("N");
+  c.add_flag("--no-area", o->no_area, "estimate look-up tables and flip-flops: yosys takes half a minute for a core");
+  c.add_flag("--no-cosim", o->no_cosim, "take clocks from the design: an RTL model takes a minute to build");
+  c.add_flag("--no-flip", o->no_flip, "leave out FLIP");
+  c.add_flag("--place", o->place,
+             "place each core and tell its clock, a minute to some minutes each: on ecp5-85f, or --place=DEVICE of "
+             "constraints/devices.yaml")
+      .type_name("[=DEVICE]");
+  c.add_flag("--list", o->list, "print what would be measured, and measure nothing");
+  c.add_option("--csv", o->csv, "write the rows as CSV; - is standard output, with nothing else on it")
+      .type_name(std::string("FILE") + kOrStandardOutput);
+  c.add_option("--out", o->out,
+               fmt::format("folder for {}, the page of all rows with their pictures, on which the cheapest "
+                           "configuration within limits is found, and for plots of error against cost as SVG and PNG",
+                           explore::kPageName))
+      .type_name("DIR");
+  options_of_pictures(c, *o, "two, or the scene's one");
+  option_json(c, o->json);
+  c.callback([o, &action, c] {
     // The store has all rows of the page, those that --take brought too.
-    o->again = fmt::format("{} --store {} --resume", command_line(*c, {"--store", "--resume", "--take"}),
+    o->again = fmt::format("{} --store {} --resume", command_line(c, {"--store", "--resume", "--take"}),
                            kage::quoted(o->store));
     action = [o] { return run(*o); };
   });

@@ -447,9 +447,9 @@ int run(const VectorsCommand& o) {
 
 }  // namespace
 
-void add_vectors(CLI::App& app, Action& action) {
-  CLI::App* c = add_command(
-      app, "vectors", "Write test vectors with known answers for any simulator or board, and judge what came out",
+void add_vectors(Program& program, Action& action) {
+  Command c = program.add(
+      "vectors", "Write test vectors with known answers for any simulator or board, and judge what came out",
       "  kage vectors courtyard --size 64x48 --frames 2 --config default --out pack\n"
       "  kage vectors courtyard --size 320x240 --sizes\n"
       "  kage vectors courtyard --size 320x240 --budget 16384 --out small\n"
@@ -461,34 +461,34 @@ void add_vectors(CLI::App& app, Action& action) {
       "A pack has stimulus, pixels, signatures and register values, a testbench in plain Verilog and a\n"
       "README.md that says how to run it. docs/vectors.md has the form of each file.");
   const auto o = std::make_shared<VectorsCommand>();
-  option_scene(*c, *o, Taken::random);
-  c->get_option("SCENE")->required(false);
-  c->add_option("--out", o->out, "the pack's folder")->type_name("DIR");
-  c->add_option("--module", o->module,
-                "a pack of one module: what passes at its ports, clock by clock, while both streams stop now and then")
-      ->type_name("MODULE");
-  c->add_flag("--sound-only", o->sound_only, "no malformed frames behind the scene's");
-  c->add_flag("--no-rtl", o->no_rtl, "do not hold the RTL against the frames first, which also tells the clocks");
-  c->add_option("--budget", o->budget,
-                "bytes that a board has for beats and signatures: the hardest lines of the frames that fit, judged by "
-                "what they reach")
-      ->check(whole_number(1))
-      ->type_name("BYTES");
-  c->add_flag("--cover", o->cover,
-              "of the frames take so few that they reach all lines and branches of the RTL, kinds of tokens and errors "
-              "that all of them reach; say which lines none reaches");
-  c->add_flag("--sizes", o->sizes, "only say how large the pack would be");
-  c->add_option("--check", o->check, "verify a pack: files, hashes, and the golden model once more")->type_name("PACK");
-  c->add_option("--compare", o->compare, "hold a capture (.hex, .bin, .raw or a picture) against a pack")
-      ->expected(2)
-      ->type_name("PACK CAPTURE");
-  c->add_option("--frame", o->frame, "the capture is of this frame of the pack alone")
-      ->check(whole_number())
-      ->type_name("N");
-  options_of_frames(*c, *o);
-  option_front_end(*c, *o);
-  option_json(*c, o->json);
-  c->callback([o, &action] { action = [o] { return run(*o); }; });
+  option_scene(c, *o, Taken::random);
+  c.option("SCENE").required(false);
+  c.add_option("--out", o->out, "the pack's folder").type_name("DIR");
+  c.add_option("--module", o->module,
+               "a pack of one module: what passes at its ports, clock by clock, while both streams stop now and then")
+      .type_name("MODULE");
+  c.add_flag("--sound-only", o->sound_only, "no malformed frames behind the scene's");
+  c.add_flag("--no-rtl", o->no_rtl, "do not hold the RTL against the frames first, which also tells the clocks");
+  c.add_option("--budget", o->budget,
+               "bytes that a board has for beats and signatures: the hardest lines of the frames that fit, judged by "
+               "what they reach")
+      .check(whole_number(1))
+      .type_name("BYTES");
+  c.add_flag("--cover", o->cover,
+             "of the frames take so few that they reach all lines and branches of the RTL, kinds of tokens and errors "
+             "that all of them reach; say which lines none reaches");
+  c.add_flag("--sizes", o->sizes, "only say how large the pack would be");
+  c.add_option("--check", o->check, "verify a pack: files, hashes, and the golden model once more").type_name("PACK");
+  c.add_option("--compare", o->compare, "hold a capture (.hex, .bin, .raw or a picture) against a pack")
+      .expected(2)
+      .type_name("PACK CAPTURE");
+  c.add_option("--frame", o->frame, "the capture is of this frame of the pack alone")
+      .check(whole_number())
+      .type_name("N");
+  options_of_frames(c, *o);
+  option_front_end(c, *o);
+  option_json(c, o->json);
+  c.callback([o, &action] { action = [o] { return run(*o); }; });
 }
 
 }  // namespace kage::cli

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "help_groups.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string_view>
+
+namespace kage::cli {
+namespace {
+
+struct Group {
+  std::string_view name;
+  std::initializer_list<std::string_view> options;
+};
+
+constexpr std::string_view kRest = "Options";
+
+const Group kGroups[] = {
+    {"Input",
+     {"--allow-outside", "--module", "--sound-only", "--tokens", "--pixel", "--frame", "--port", "--baud", "--exclude",
+      "--mask"}},
+    {"Picture",
+     {"--size", "--frames", "--order", "--alpha", "--cull", "--max-fragments", "--samples", "--classes", "--sub-bits",
+      "--seed", "--level", "--eyes"}},
+    {"Core", {"--config",  "--degrade",     "--units-only", "--front-end", "--idle",      "--backpressure",
+              "--netlist", "--fault",       "--mutant",     "--plan",      "--clock",     "--device",
+              "--fps",     "--total-lines", "--max-z",      "--max-color", "--max-wrong", "--guarantee",
+              "--prefer",  "--axes",        "--grid",       "--seeds"}},
+    {"Comparison",
+     {"--stages", "--no-divergence", "--no-shrink", "--coverage", "--rtl", "--check", "--changes", "--compare",
+      "--no-rtl", "--lsb", "--abs", "--ulp", "--max-pixels", "--max-percent", "--region", "--ignore-alpha",
+      "--perceptual", "--part"}},
+    {"Run",
+     {"--threads",    "--jobs",       "--shard",   "--minutes", "--rounds",  "--cache-verdicts", "--no-cache-verdicts",
+      "--max-memory", "--timeout",    "--loop",    "--leave",   "--clocks",  "--estimate",       "--anew",
+      "--repeats",    "--budget",     "--cover",   "--sizes",   "--no-area", "--no-cosim",       "--no-flip",
+      "--place",      "--store",      "--resume",  "--take",    "--list",    "--bless",          "--prune",
+      "--dry-run",    "--older-than", "--max-size"}},
+    {"Output",
+     {"--out", "--json", "--junit", "--annotate", "--no-report", "--exr", "--error-map", "--csv", "--blink", "--save",
+      "--plot", "--man", "--bash", "--zsh"}},
+};
+
+}  // namespace
+
+std::string help_group(const std::string& option) {
+  for (const Group& group : kGroups)
+    if (std::find(group.options.begin(), group.options.end(), option) != group.options.end())
+      return std::string(group.name);
+  return std::string(kRest);
+}
+
+const std::vector<std::string>& help_groups() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Group& group : kGroups) all.emplace_back(group.name);
+    all.emplace_back(kRest);
+    return all;
+  }();
+  return names;
+}
+
+}  // namespace kage::cli
