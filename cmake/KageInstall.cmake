@@ -23,7 +23,6 @@ install(DIRECTORY verif/cosim/model/cells verif/cosim/model/driver verif/cosim/m
 install(DIRECTORY constraints/boards DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)
 install(FILES constraints/figures.json DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)
 install(DIRECTORY verif/board/sim DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/board USE_SOURCE_PERMISSIONS)
-install(FILES verif/test/formal/sdram_rules.sv DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/test/formal)
 install(DIRECTORY verif/vectors/bench DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/vectors)
 install(DIRECTORY verif/cosim/diverge/monitors DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/diverge)
 
