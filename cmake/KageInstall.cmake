@@ -32,7 +32,6 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "__pycache__" EXCLUDE)
 install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
-install(DIRECTORY verif/test/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/verif/test PATTERN "*.sh" EXCLUDE)
 
 # For builds without CMake: pkg-config --cflags --libs kage. The static libraries ask for what they are linked with.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")
