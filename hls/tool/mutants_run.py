@@ -64,7 +64,7 @@ class Vectors:
             HARNESS,
             BENCH,
             *sorted((TOP / "rtl/include").rglob("*.svh")),
-            *sorted((TOP / "verif/test/rtl").glob("*.hpp")),
+            *sorted((TOP / "verif/test/rtl").rglob("*.hpp")),
             *sorted((TOP / "hls/kernels").glob("*.hpp")),
         ]
         self._key = versions + "".join(
