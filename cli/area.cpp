@@ -33,7 +33,7 @@ Json counted_json(const std::optional<explore::Synthesis>& done) {
           {"yosys", done->yosys},     {"seconds", done->seconds}};
 }
 
-/// What the estimate is a sum of, by which tools/area fits it.
+/// The terms whose weighted sum is the estimate; tools/area fits the weights.
 Json terms_json(const Config& config, std::span<const CellTerm> terms) {
   Json j = Json::object();
   for (const CellTerm& t : terms) j[std::string(t.name)] = t.value(config);

@@ -58,7 +58,7 @@ std::string screen_text(const report::BoardScreenRecord& s) {
                      s.underrun_frames - std::min(s.late, s.underrun_frames), counted(s.underrun_lines, "line"));
 }
 
-/// What a board has to say besides what kage cosim says.
+/// Prints a board's results that kage cosim does not have.
 void print_board(const report::BoardRecord& b) {
   fmt::print(
       "board {} at {}: {} played{}; link: {} sent, {} of them again, {} came damaged\n", b.name, b.port,

@@ -114,7 +114,7 @@ std::uint64_t total(const std::vector<cosim::StoredVerdict>& verdicts) {
   return bytes;
 }
 
-/// What is said of the verdicts: `damaged` is null where nobody has looked.
+/// Record of the stored verdicts. `damaged` is their number, or null where they were not checked.
 Json of_verdicts(const cosim::VerdictStore& store, const Json& damaged) {
   const std::vector<cosim::StoredVerdict> all = store.list();
   return {{"folder", store.folder().string()}, {"verdicts", all.size()}, {"bytes", total(all)}, {"damaged", damaged}};
@@ -140,7 +140,7 @@ std::string line_of(const CachedModel& model) {
                      config_text(model.about));
 }
 
-/// What is wrong with a model, also where it is not to be trusted.
+/// A model's damage in words, also where the model is not to be trusted.
 std::string damage_of(const ModelCache& cache, const std::string& key) {
   try {
     return cache.damage(key).value_or("it is gone");

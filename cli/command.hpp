@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What every subcommand is: it adds itself to the command line, and its action returns the exit code.
+// Interface of every subcommand: it adds itself to the command line, and its action returns the exit code.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,10 +14,10 @@ inline constexpr int kSame = 0;
 inline constexpr int kDifferent = 1;
 inline constexpr int kTrouble = 2;
 
-/// What a subcommand does once the command line is parsed; returns the exit code.
+/// A subcommand's work, called once the command line is parsed; returns the exit code.
 using Action = std::function<int()>;
 
-// One function per subcommand: adds it to `app`; when it is given, `action` becomes what it does.
+// One function per subcommand: adds it to `app`; when it is given, `action` becomes its work.
 void add_cosim(CLI::App& app, Action& action);
 void add_render(CLI::App& app, Action& action);
 void add_stream(CLI::App& app, Action& action);

@@ -27,7 +27,7 @@ std::vector<std::string> option_names(const std::vector<OptionWords>& options) {
   return names;
 }
 
-/// What bash is to offer for a value. `kage list` knows the names.
+/// The words that bash is to offer for a value. `kage list` knows the names.
 std::string bash_values(const OptionWords& option, const std::vector<CommandWords>& commands) {
   switch (option.kind) {
     case ValueKind::words:

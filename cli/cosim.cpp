@@ -111,8 +111,8 @@ void add_cosim(CLI::App& app, Action& action) {
       "  kage cosim courtyard --shard 2/4 --junit cosim-2.xml --json cosim-2.json   (then kage merge)\n"
       "The RTL model of a configuration is built on first use, and anew when the RTL has changed; it is kept in\n"
       "~/.cache/kage/models. All files of a run appear together at its end: the pictures and DIR/report.html, which\n"
-      "has verdict, frames, clocks, and the history of each pixel that is clicked (docs/report.md). Of several scenes\n"
-      "each has its own folder in DIR, and DIR/report.html is over all; a difference ends its scene, not the others.\n"
+      "has verdict, frames, clocks, and the history of each pixel that is clicked (docs/report.md). Several scenes\n"
+      "have a folder each in DIR, and DIR/report.html is over all; a difference ends its scene, not the others.\n"
       "Exit code 0: the same. 1: different; expected, actual and difference pictures are in the folder. 2: trouble.");
   o.out = "out";
   option_scenes(*c, o.inputs, Taken::random);

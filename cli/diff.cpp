@@ -48,7 +48,7 @@ void refuse(const DiffCommand& o, const std::string& what, const std::vector<std
 int run(const DiffCommand& o) {
   Sort sort = sort_of(o.a);
   Sort other = sort_of(o.b);
-  // What is missing is named by whoever opens it.
+  // A missing file is reported by the code that opens it.
   if (sort == Sort::nothing) sort = other;
   if (other == Sort::nothing) other = sort;
   static constexpr const char* kWords[] = {"nothing", "a file", "a directory", "a stream"};

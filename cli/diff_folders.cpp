@@ -27,7 +27,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What all pictures of two folders come to.
+/// Sums over all files of two folders.
 struct Totals {
   std::uint64_t pictures = 0;
   std::uint64_t different = 0;  // those that one folder lacks included
@@ -233,7 +233,7 @@ int diff_two_folders(const DiffCommand& o) {
 
 namespace {
 
-/// What a blessing does, or with --dry-run would do, to the files of a folder.
+/// Changes that a blessing makes, or with --dry-run would make, to the files of a folder.
 struct Blessed {
   std::uint64_t unchanged = 0;
   Json changed = Json::array();

@@ -69,7 +69,7 @@ Json to_json(const LineView::UnitPixel& p) {
   return {{"z", p.z}, {"index", p.index}, {"color", p.color}, {"class", p.normal_class}};
 }
 
-/// What the RTL did, told between the tokens of the golden model's history.
+/// The RTL's events, printed between the tokens of the golden model's history.
 class RtlLines {
  public:
   RtlLines(const std::vector<cosim::RtlTouch>& rtl, bool changes) : rtl_(rtl), changes_(changes) {}
@@ -106,7 +106,7 @@ std::vector<cosim::RtlTouch> watch_rtl(const ExplainCommand& o, cosim::Source& s
   return cosim::watch_pixel(o.frame, o.frame, feed, source.config(), options, at.x, at.y);
 }
 
-/// What is told of a pixel.
+/// A pixel's explanation: its history, and the sources of its tokens.
 struct Explained {
   Pixel at;
   PixelHistory history;

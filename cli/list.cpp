@@ -35,7 +35,7 @@ std::string differences(const Config& config) {
   return fmt::format("{}", fmt::join(values, " "));
 }
 
-/// What a fault does: the second line of its patch.
+/// Description of a fault: the second line of its patch.
 std::string about_fault(const std::string& name) {
   std::ifstream patch(data_directory() / "verif/cosim/model/faults" / (name + ".patch"));
   std::string line;
@@ -44,7 +44,7 @@ std::string about_fault(const std::string& name) {
   return line;
 }
 
-/// What a built-in scene shows: its file says it. Most of a file is behind that, and is not parsed.
+/// Description of a built-in scene, from its file. Most of the file stands behind it, and is not parsed.
 std::string about_scene(const std::string& name) {
   const std::filesystem::path path = data_directory() / "scenes" / (name + ".gltf");
   const Json asset = json_member(read_file(path), "asset", path.string());

@@ -40,7 +40,8 @@ int trouble(std::string message) {
   return interrupted() ? interrupted_code() : kTrouble;
 }
 
-/// What no one has caught, in any thread: mostly memory that a library's own thread could not have.
+/// Ends the program at an exception that no code has caught, in any thread: mostly memory that a library's own thread
+/// could not have.
 [[noreturn]] void give_up() {
   // No memory is asked for here: there may be none.
   const char* text = "an error that nothing expected";
@@ -66,7 +67,7 @@ void catch_all() { std::set_terminate(give_up); }
 [[gnu::section(".preinit_array"), gnu::used]] void (*const kCatchAll)() = catch_all;
 #endif
 
-/// What was to be told has not arrived. A reader that has gone away, as head does, knows.
+/// Standard output could not be written. A reader that has gone away, as head does, needs no message.
 int lost_output(int error) {
   if (error == EPIPE) return kTrouble;
   return trouble(fmt::format("standard output: cannot be written: {}", std::strerror(error)));

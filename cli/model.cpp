@@ -29,7 +29,7 @@ struct ModelCommand : Options {
   std::vector<std::string> planned;  // scenes
 };
 
-/// What the scenes are planned, one by one.
+/// The plans of the scenes, one by one.
 std::vector<NamedConfig> plans(const ModelCommand& o) {
   std::vector<NamedConfig> list;
   for (const std::string& input : o.planned) {

@@ -255,9 +255,9 @@ void option_cache_verdicts(CLI::App& command, bool& cache) {
         ->trigger_on_parse();
   };
   flag("--cache-verdicts", true,
-       "skip a frame that an earlier run with this option found the same, if its words, the frame before it (with "
+       "skip a frame that an earlier run with this option found the same. Its words, the frame before it (with "
        "--jobs 1 "
-       "all frames before it), the RTL, the configuration, the stalls and the seed are those of the earlier run. "
+       "all frames before it), the RTL, the configuration, the stalls and the seed must be those of the earlier run. "
        "Verdicts "
        "are kept in ~/.cache/kage/verdicts; a run with --fault or --netlist leaves them alone");
   flag("--no-cache-verdicts", false,

@@ -20,8 +20,8 @@ CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = std::n
 /// One of these words. A message says which was probably meant.
 CLI::Validator one_of(const std::vector<std::string>& words);
 
-/// What the type of an option ends with whose value is a file, or - for standard output. Any other option that names a
-/// file refuses - before the command begins.
+/// End of the type of an option whose value is a file, or - for standard output. Any other option that names a file
+/// refuses - before the command begins.
 inline constexpr const char* kOrStandardOutput = "|-";
 /// Whether a value of such an option is standard output.
 bool is_standard_output(const std::string& value);
@@ -39,10 +39,10 @@ struct Options : cosim::SourceOptions {
 /// --config: the core's parameters.
 void option_config(CLI::App& command, cosim::SourceOptions& options);
 
-/// What decides the pictures of a scene: --size, --frames, --order, --alpha, --cull, --max-fragments, --samples,
+/// Options that decide the pictures of a scene: --size, --frames, --order, --alpha, --cull, --max-fragments, --samples,
 /// --classes, --sub-bits, --seed; and --threads, --allow-outside. `frames` says how many are made without --frames.
 void options_of_pictures(CLI::App& command, cosim::SourceOptions& options, const char* frames = "the scene's own");
-/// What every command that makes frames for a core takes: those, and --config, --degrade, --units-only.
+/// Options of every command that makes frames for a core: those, and --config, --degrade, --units-only.
 void options_of_frames(CLI::App& command, cosim::SourceOptions& options);
 void option_max_fragments(CLI::App& command, cosim::SourceOptions& options);
 void option_seed(CLI::App& command, std::uint64_t& seed);
@@ -50,7 +50,7 @@ void option_json(CLI::App& command, std::string& json);
 /// --level: of frames that are written.
 void option_level(CLI::App& command, cosim::SourceOptions& options);
 
-/// What a command takes frames from: scenes; stream files, too; random frames, too.
+/// Sources of frames that a command takes: scenes; stream files, too; random frames, too.
 enum class Taken : std::uint8_t { scenes, streams, random };
 /// SCENE, a positional.
 void option_scene(CLI::App& command, cosim::SourceOptions& options, Taken taken = Taken::streams);

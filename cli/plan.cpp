@@ -148,7 +148,7 @@ std::string least_text(const Plan& plan, Prefer prefer) {
                      clocks < 0 ? "clocks" : "words");
 }
 
-/// What speed costs beside the clocks it saves, against the smallest configuration; nothing if that was taken.
+/// The cost of speed beside the clocks it saves, against the smallest configuration; empty if that one was taken.
 std::string speed_text(const Plan& plan) {
   const PlanCost& c = plan.cost;
   const PlanCost& least = plan.smallest.cost;
@@ -165,7 +165,7 @@ std::string speed_text(const Plan& plan) {
       of(c.bits_per_pixel, least.bits_per_pixel));
 }
 
-/// What the plan's pictures may be off by, as its inequalities bound it or as it was measured.
+/// The error of the plan's pictures, as its inequalities bound it or as it was measured.
 std::string error_text(const Plan& plan, const PlanOptions& options, const explore::MeasuredPlan* measured) {
   if (measured == nullptr)
     return fmt::format("# depth within {:.3g} of its range, colour at most {}/255 from exact arithmetic{}\n",
@@ -180,8 +180,8 @@ std::string error_text(const Plan& plan, const PlanOptions& options, const explo
   return text;
 }
 
-/// What render says of the scenes, a line each: what was ignored or added, and what is to be seen with the plan's
-/// depth.
+/// The notes that kage render has on the scenes, a line each: ignored and added parts, and visible effects of the
+/// plan's depth.
 std::vector<std::string> notes_of(const PlanCommand& o, const Plan& plan, const std::vector<PlannedScene>& scenes) {
   std::vector<std::string> lines;
   for (const PlannedScene& s : scenes) {
@@ -266,7 +266,7 @@ Json accuracy_json(const explore::Accuracy& a) {
   return {{"wrong_ppm", a.wrong_ppm()}, {"z_error", a.z_max}, {"color_steps", a.color_max}};
 }
 
-/// What pictures with the plan's widths were off by, and with those before they were rounded up to steps.
+/// Measured errors of pictures with the plan's widths, and with the widths before they were rounded up to steps.
 Json measured_json(const Plan& plan, const explore::MeasuredPlan* measured) {
   if (measured == nullptr) return nullptr;
   const explore::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);

@@ -10,9 +10,9 @@
 
 namespace kage::cli {
 
-/// How far work has come, on standard error: on a terminal a line that is written over and over; in a pipe, a file or
-/// on a dumb terminal a line every ten seconds, so none where the work does not last. $KAGE_PROGRESS is another number
-/// of seconds, 0: no lines.
+/// How far work has come, on standard error. On a terminal it is one line that is written over and over. In a pipe, a
+/// file or on a dumb terminal it is a line every ten seconds, so none where the work does not last. $KAGE_PROGRESS is
+/// another number of seconds, 0: no lines.
 class Progress final : public cosim::Progress {
  public:
   Progress();

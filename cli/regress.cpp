@@ -58,7 +58,7 @@ void write_junit(TempFiles& files, const std::string& path, const report::RunRec
   junit.close();
 }
 
-/// What each configuration had.
+/// Prints the runs and frames of each configuration, and whether all were the same.
 void print_configurations(const report::RunRecord& record) {
   struct Sum {
     std::uint64_t runs = 0;
@@ -107,7 +107,7 @@ void print_verdicts(const cosim::Regress& regress, const report::RunRecord& reco
 void write_reports(const RegressCommand& o, cosim::Regress& regress, report::RunRecord& record, const std::string& page,
                    TempFiles& files) {
   try {
-    // What was done until a signal came is written.
+    // After a signal the runs that were done before it are still written.
     const bool over = regress.interrupted();
     report::write_joined_page(files, page, record, [over] {
       if (!over) check_interrupt();

@@ -18,8 +18,8 @@ namespace kage::cli {
 using report::Json;
 using report::to_json;
 
-/// What --json writes. It names its schema by its first key; a list does in each of its entries. The schema of
-/// "kage.list/1" is docs/schema/list.json.
+/// A document that --json writes. It names its schema by its first key; a list does in each of its entries. The schema
+/// of "kage.list/1" is docs/schema/list.json.
 class Document {
  public:
   Document(std::string_view schema, const Json& value);

@@ -10,8 +10,8 @@ namespace {
 
 volatile std::sig_atomic_t signalled = 0;  // the number of the first signal
 
-// The second one ends the program wherever it waits, destructors and exit handlers among that. What it leaves in hidden
-// folders the next run removes, and its children die with it.
+// The second signal ends the program wherever it waits, in destructors and exit handlers too. The next run removes the
+// files that it leaves in hidden folders, and its children die with it.
 void on_signal(int number) {
   if (signalled != 0) _exit(kSignalled + number);
   signalled = number;

@@ -8,8 +8,8 @@
 namespace kage::cli {
 
 /// Opens those of standard input, output and error that are closed on /dev/null: else a file of results would get their
-/// number, and with it what is meant for a person. What is written to standard output then fails, as it does
-/// without this; what is written to standard error is lost.
+/// number, and with it the text meant for a person. Writing to standard output then fails, as it does without this;
+/// text written to standard error is lost.
 void open_standard_files();
 
 /// Writes to standard error. Where that cannot be, nobody is there to be told.

@@ -39,7 +39,7 @@ using explore::Entry;
 using explore::SweepPoint;
 using explore::SweptScene;
 
-// What --place is without a device, and the device that it means: of the family whose cells are counted.
+// The value of --place without a device, and the device that it stands for: of the family whose cells are counted.
 constexpr const char* kPlaceFlag = "true";
 constexpr const char* kPlaceDevice = "ecp5-85f";
 
@@ -82,7 +82,7 @@ struct OutPlace {
   report::ReportLock lock;
 };
 
-/// What --out gets.
+/// Writes the page of --out.
 void write_page(const SweepCommand& o, const std::vector<SweptScene>& scenes, const std::vector<Entry>& entries,
                 const std::vector<Json>& rows, TempFiles& files) {
   Progress progress;
@@ -152,7 +152,7 @@ void announce_left_out(const std::vector<SweptScene>& scenes) {
     if (!s.left_out.empty()) say(fmt::format("kage: {}: {}\n", s.scene->name(), s.left_out));
 }
 
-/// What was measured, what was taken from the store, and which files there are.
+/// The closing lines: how many rows were measured, how many came from the store, and which files were written.
 std::string closing(const SweepCommand& o, std::size_t made, std::size_t rows, const std::string& page) {
   std::string text = fmt::format("# {} measured now, ", made);
   text += made == rows ? fmt::format("kept in {}\n", shown(o.store))
@@ -264,7 +264,7 @@ void add_sweep(CLI::App& app, Action& action) {
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
       ->type_name("FILE");
   option_shard(*c, o->shard, "run the Ith of N parts of the list: run I - 1 and every Nth after it. --take joins them");
-  c->add_option("--jobs", o->jobs, "runs at a time, default: one per processor. What has to do with time runs alone")
+  c->add_option("--jobs", o->jobs, "runs at a time, default: one per processor. Measurements of time run alone")
       ->check(whole_number(1, 1024))
       ->type_name("N");
   c->add_flag("--no-area", o->no_area, "estimate look-up tables and flip-flops: yosys takes half a minute for a core");

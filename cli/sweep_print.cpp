@@ -26,7 +26,7 @@ bool any_placed(const std::vector<Json>& rows) {
                      [](const Json& row) { return !row.at("area").at("placed_on").is_null(); });
 }
 
-/// What the columns' names mean.
+/// Meanings of the columns' names.
 std::string legend(bool placed) {
   return fmt::format(
       "# face, shadow: pixels with another face than the oracle's, another number of shadowed samples; gross: by more "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is wrong with a command line, in one line.
+// Messages on a faulty command line, in one line.
 #include "usage.hpp"
 
 #include <fmt/format.h>

@@ -10,14 +10,14 @@
 
 namespace kage::cli {
 
-/// What writes --help: lines that are too long go on under where their text began.
+/// The formatter of --help: lines that are too long go on below the place where their text began.
 std::shared_ptr<CLI::Formatter> help_formatter();
 
-/// What is wrong with a command line that `app` refused, and the help to read: one line.
+/// The fault of a command line that `app` refused, and the help to read: one line.
 std::string explain(const CLI::App& app, const CLI::ParseError& error);
 
-/// An argument or option of the command that was given as an empty text, as a script's variable that is not set makes
-/// it, or an option that is given - where it means no standard output: one line that names it. Empty if there is none.
+/// One line that names an argument or option with a senseless value; empty if there is none. An empty text is
+/// senseless: a script's variable that is not set gives it. So is - for an option where it means no standard output.
 std::string senseless_value(const CLI::App& app);
 
 /// "rendr: no such command (did you mean render?)".

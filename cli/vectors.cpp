@@ -115,7 +115,7 @@ class PackFrames {
     });
     chosen_ = cover_->frames;
   }
-  /// Malformed frames come first: they are small. What is left is for the hardest lines.
+  /// Malformed frames come first: they are small. The rest of the budget is for the hardest lines.
   void choose(const VectorsCommand& o) {
     const Config& config = source_.config();
     std::uint64_t bytes = 0;
@@ -138,7 +138,7 @@ class PackFrames {
   std::vector<vectors::MalformedFrame> malformed_;
 };
 
-/// What each frame is, without writing anything.
+/// Measures each frame, without writing anything.
 std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
   cosim::FrameProgress frame_progress(progress, "measuring", from.size());
   const Config& config = from.source().config();
@@ -204,7 +204,7 @@ std::uint64_t bytes_of(const std::vector<vectors::PackFile>& files) {
   return bytes;
 }
 
-/// What --budget counts.
+/// The bytes that --budget counts.
 std::uint64_t bytes_for_board(const vectors::Pack& pack) {
   std::uint64_t bytes = 0;
   for (const vectors::PackFrame& f : pack.frames)
@@ -218,7 +218,7 @@ Json files_json(const std::vector<vectors::PackFile>& files) {
   return j;
 }
 
-/// What passes at a module's ports while the RTL draws the frames.
+/// Writes a pack of the values at a module's ports while the RTL draws the frames.
 int write_module_pack(PackFrames& from, const VectorsCommand& o) {
   const NamedConfig& named = from.source().named_config();
   vectors::PortsRecord record(named.config, vectors::pack_module(o.module, named.config));

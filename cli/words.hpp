@@ -9,7 +9,7 @@
 
 namespace kage::cli {
 
-/// What the value of an option or an argument is.
+/// Kind of value of an option or an argument.
 enum class ValueKind { none, text, words, file, folder, scene, config, fault, command };
 
 struct OptionWords {
@@ -33,7 +33,7 @@ struct CommandWords {
 /// The commands, in the order of the help.
 std::vector<CommandWords> commands_of(const CLI::App& app);
 
-/// Those of the program itself.
+/// The options of the program itself.
 std::vector<OptionWords> options_of(const CLI::App& app);
 
 }  // namespace kage::cli

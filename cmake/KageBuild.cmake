@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# The build's one set of flags. What a stream holds must not depend on the compiler: no contraction of a*b+c, no fast-math, no -march.
+# The build's one set of flags. A stream's words must not depend on the compiler: no contraction of a*b+c, no fast-math, no -march.
 get_property(multi_config GLOBAL PROPERTY GENERATOR_IS_MULTI_CONFIG)
 if(PROJECT_IS_TOP_LEVEL AND NOT multi_config AND NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug, Sanitize, Threads or Fuzz" FORCE)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# What the modules stand on (ref/module/module.hpp). Who links kage needs none of it to build.
+# Libraries that the modules stand on (ref/module/module.hpp). A program that links kage needs none of them to build.
 find_package(assimp REQUIRED)
 set(CMAKE_MESSAGE_LOG_LEVEL_kept ${CMAKE_MESSAGE_LOG_LEVEL})
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING) # Imath, which it asks for, talks about a Python library nobody wants

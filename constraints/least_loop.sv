@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The least that a banked core's loop can be, as a yardstick for its clock on a device: a block RAM read into a
+// The least loop that a banked core can have, as a yardstick for its clock on a device. It is a block RAM read into a
 // register, a registered adder (the span's depth), a registered comparison of the full width, a select, and the write
 // back. It has no control, no forwarding and no checks: a core of BITS = Z_BITS + Z_FRAC that reaches its clock is as
 // fast as its arithmetic lets it be.

@@ -3,15 +3,20 @@
 /// @file
 /// Integers of exact widths for the kernels: hw::u<N> and hw::s<N>, N = 1 .. 64.
 ///
-/// One of four implementations stands behind the names: the Algorithmic C types (`-DKAGE_HLS_AC`: ac_int, for
-/// Catapult), AMD's (`-DKAGE_HLS_AP`: ap_int, for Vitis HLS), clang's own integers (`-DKAGE_HLS_BITS`: _BitInt, for
-/// hls/tool, because the compiler's intermediate code then has the very widths), or the plain class of this file, for
-/// tests. They differ in the width of a sum. So that all give the same bits, kernels keep one rule, and the plain class
-/// turns every breach of it into a compile error:
+/// One of four implementations stands behind the names:
+///
+/// * `-DKAGE_HLS_AC`: the Algorithmic C types, ac_int, for Catapult.
+/// * `-DKAGE_HLS_AP`: AMD's types, ap_int, for Vitis HLS.
+/// * `-DKAGE_HLS_BITS`: clang's own integers, _BitInt, for hls/tool: the compiler's intermediate code then has the very
+///   widths.
+/// * none of these: the plain class of this file, for tests.
+///
+/// They differ in the width of a sum. So that all give the same bits, kernels keep one rule, and the plain class turns
+/// every breach of it into a compile error:
 ///
 /// * Both operands of an operator have the type that the result shall have, and the result is stored in a variable of
 ///   that type, or converted to it, before anything else is done with it. It wraps.
-/// * What changes a width is written out: a constructor wraps, or extends by the source's sign; hw::slice<M>(v, lo)
+/// * Changes of width are written out: a constructor wraps, or extends by the source's sign; hw::slice<M>(v, lo)
 ///   takes M bits.
 /// * Shifts are by constants from 0 to N - 1, and keep the type.
 #pragma once

@@ -2,14 +2,14 @@
 // The polygons that cross a line, in the order of their places: one bank is read while those that cross the next line
 // are written to the other, in the same order. So nothing is ever searched.
 //
-// Reading: polygon_valid_o and polygon_o, the line's next one, which pop_i takes; left_o: there are more of the line,
-//   ready or not. before_o, same_o: its place is less than place_i, or is place_i; goes_on_o: its end is behind line_i.
-//   These are registers, so in the clock in which renew_i says that place_i is new they are of the place before, and
-//   nothing is taken.
-// Writing: keep_i, one clock: one that is taken, or a new one, goes on to the next line; it comes to be written by
-//   write_i later, in the same order. room_o: the line and the next one have fewer than ACTIVE.
-// A line ends by swap_i, one clock, when nothing is left and swap_ready_o is high; swap_write_i, one clock, when all
-//   that the line keeps has been written. clear_i: as after reset, while nothing is to be written.
+// Reading: polygon_valid_o and polygon_o give the line's next polygon, which pop_i takes; left_o: the line has more,
+//   ready or not. Three outputs judge that polygon: before_o and same_o, its place is less than place_i, or is place_i;
+//   goes_on_o, its end is behind line_i. They are registers: in the clock in which renew_i says that place_i is new
+//   they are those of the place before, and nothing is taken.
+// Writing: keep_i, one clock: a polygon that is taken, or a new one, goes on to the next line. It is written by write_i
+//   later, in the same order. room_o: the line and the next one have fewer than ACTIVE together.
+// A line ends by swap_i, one clock, when nothing is left and swap_ready_o is high. Input swap_write_i comes, one clock,
+//   when all that the line keeps has been written. clear_i: as after reset, while nothing is to be written.
 // Latency: from swap_i 4 clocks to the next line's first polygon; one that is still to be written comes 4 clocks after
 //   that. Throughput: a polygon a clock, read and written.
 // Cost: 2 x ACTIVE words of block RAM, rounded up to a power of two; 2 x BITS flip-flops; five counters, a comparator
@@ -68,7 +68,7 @@ module active_list #(
       all_q <= '0;
     end else begin
       left_q <= swap_i ? kept_q : left_q - TallyBits'(pop_i);
-      // What it comes to is told by the counters alone, and pop_i, which comes late, only chooses.
+      // Counters alone give all results here; pop_i, which comes late, only selects one.
       left_any_q <= swap_i ? kept_q != '0 : pop_i ? left_q != TallyBits'(1) : left_any_q;
       full_q <= pop_i == keep_i ? full_q : keep_i && all_q == TallyBits'(ACTIVE - 1);
       kept_q <= swap_i ? '0 : kept_q + TallyBits'(keep_i);
@@ -152,10 +152,10 @@ module active_list #(
 `ifndef SYNTHESIS
   always @(posedge clk_i) begin
     if (!clear) begin
-      // 1. What is taken is there; a line ends behind its last.
+      // 1. A polygon that is taken is there; a line ends behind its last.
       assert (!pop_i || (polygon_valid_o && left_any_q && !renew_i));
       assert (!swap_i || (swap_ready_o && !left_any_q && !first_valid_q && !next_valid_q && !loaded_q));
-      // 2. Counts are of each other.
+      // 2. The counts agree.
       assert (left_any_q == (left_q != '0) && full_q == (32'(all_q) == ACTIVE) && all_q == left_q + kept_q);
       assert (32'(all_q) <= ACTIVE);
       // 3. Nothing is written past a bank.

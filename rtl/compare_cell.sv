@@ -2,9 +2,9 @@
 // A cell of the compare tree: comparator, multiplexer and pipeline register, two pixels in, one out. [Ohno 1985]
 //
 // Result: the side with the lesser key, the upper KEY_BITS of the data; on equal keys the left one.
-// Handshake: valid/ready on all sides. A pixel of each side is taken in the same clock or none; left_ready_o and
-//   right_ready_o depend on both valids and on out_ready_i. out_data_o is stable while out_valid_o waits. last ends a
-//   line on both sides at once.
+// Handshake: valid/ready on all sides. The pixels of both sides are taken in the same clock; left_ready_o and
+//   right_ready_o depend on both valids and on out_ready_i. Output out_data_o is stable while out_valid_o waits. A
+//   line ends (last) on both sides at once.
 // Latency: 1 clock. Throughput: a pixel a clock. rst_ni low empties the cell.
 // Cost: a comparator of KEY_BITS, a multiplexer and a register of DATA_BITS, 2 more flip-flops.
 `default_nettype none

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compare tree: of UNITS streams of pixels the one with the least key at each pixel. [Ohno 1985]
 //
-// Shape: ceil(log2 UNITS) levels. A level pairs its neighbours in compare cells; one that is left over at the end
-//   passes through a register, so that all pixels of a line are in the same level at the same time. Behind every second
-//   level but the last, skid buffers cut the path of `ready`.
+// Shape: ceil(log2 UNITS) levels. A level pairs its neighbours in compare cells. A stream left over at the end passes
+//   through a register, so that the pixels of one place in a line are in the same level at the same time. Behind every
+//   second level but the last, skid buffers cut the path of `ready`.
 // Result: the pixel with the least key, the upper KEY_BITS of its data; on equal keys that of the lowest unit.
 // Handshake: valid/ready on all sides. A pixel of each unit is taken in the same clock or later, level by level: a
 //   unit's ready depends on its neighbours' valids and, through two levels at most, on the ready behind them. All

@@ -7,11 +7,11 @@
 //   expanded only when it is complete, so it has no bubble from its first pixel to its last.
 // Faces: face_valid_i writes piece_i into the table of the frame that came in last; segments may name it from the next
 //   clock on. The table has two banks, which frame_start_i exchanges, so that lines of the frame before keep theirs
-//   while they leave. frame_start_i may come only when no line is left of the frame before that one, and no line is
+//   while they leave. A frame_start_i may come only when no line is left of the frame before that one, and no line is
 //   half filled.
 // Pixels: px_* is valid/ready, with px_last_o at a line's last. At pixel k of a segment Z = clamp((z + k * dz) >>
-//   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. Of the blank face Z and index are all ones,
-//   colour and class 0. px_data_o is a point (kage_widths.svh).
+//   Z_FRAC, 1, 2^Z_BITS - 2), with the face's index, colour and class. The blank face has a Z and an index of all ones,
+//   colour and class 0. Output px_data_o is a point (kage_widths.svh).
 // flush_i drops all lines, in one clock; the table stays.
 // Latency: 6 clocks from the segment that completes a line to its first pixel. Throughput: a pixel a clock, lines that
 //   are buffered without a gap.

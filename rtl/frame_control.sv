@@ -2,9 +2,9 @@
 // The frame: has its tokens judged by token_stage, keeps the line's number, and turns tokens into commands for the
 // pixels and lines for the way out. Modules behind frame_control see sound frames only.
 //
-// Handshake: token_* and cmd_* are valid/ready. token_ready_o depends on registers only. line_valid_o waits for
-//   line_ready_i, which must not depend on it: a line is passed on in the clock in which its EOL becomes a command,
-//   so lines and EOL commands come in the same order.
+// Handshake: token_* and cmd_* are valid/ready. Output token_ready_o depends on registers only. Output line_valid_o
+//   waits for line_ready_i, which must not depend on it. A line is passed on in the clock in which its EOL becomes a
+//   command, so lines and EOL commands come in the same order.
 // Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans,
 //   SHADE, IF and RESOLVE take their clock here and go no further: the command's count brings the line's bias with EV,
 //   ES and EOL. A line's first TP is preceded by the command RESOLVE, which has no token: over the whole line, with the
@@ -16,10 +16,10 @@
 // Errors: the first one of a frame is reported by error_* for one clock. From then on the frame's lines are blank: EOL
 //   commands clear the state and the line says that its pixels are background. Tokens are dropped by token_stage and
 //   drop_o. A token at fault waits for nothing but, if it is a header, for tree_frame_ready_i.
-// Units (UNITS > 0): FACE and SEG go to the tree in the clock they leave token_stage and need no command; a SEG waits
-//   for room in the tree by tree_seg_ready_i, a header for tree_frame_ready_i, and neither may depend on a valid. A
-//   SEG whose unit is at fault goes nowhere. tree_call_o says, for one clock each, that a header or a FACE left
-//   token_stage, that a TREE became a command, and after an error that there will be no more of this frame. Without
+// Units (UNITS > 0): FACE and SEG go to the tree in the clock they leave token_stage and need no command. A SEG waits
+//   for room in the tree by tree_seg_ready_i, a header by tree_frame_ready_i, and neither may depend on a valid. A SEG
+//   whose unit is at fault goes nowhere. Output tree_call_o says, for one clock each, that a header or a FACE left
+//   token_stage, or that a TREE became a command. After an error it says that no more of this frame will come. Without
 //   units these outputs are 0 and the inputs do not matter.
 // Latency: 2 clocks from token to command. Throughput: a token a clock.
 // Cost: token_stage, token_command, and the flip-flops of a header and of two counters of 15 bits.
@@ -319,7 +319,7 @@ module frame_control #(
       assert (!emit_eol || !lines_done_q);
       assert (state_q == StHeader || lines_done_q == (left_q == '0));
       assert (blank_due_q == (state_q == StBlank && !lines_done_q));
-      // 4. What a token does is done in the clock in which it is taken, but for what a TP waits for.
+      // 4. A token acts in the clock in which it is taken, but for the work that a TP waits for.
       assert (accept || !(take_header || bad || body_eol || emit_span || emit_tree || emit_entry || call.face));
       assert (!accept || take_header || bad || sound);
     end

@@ -6,16 +6,16 @@
 //   and of EDGE -> hls_edge_setup -> queue -> front_merge     its edge on the line
 //   active_list -> front_merge, polygon_walk -> active_list   polygons that cross the line, by place
 //
-// How: the line's polygons lie in active_list by place, and so do the tokens that the line brings. front_merge compares
-//   the two heads by their places, so that neither is ever searched. What is compared is a register: a token is judged
-//   on its way to be the head, a polygon on its way to be the list's first, and again when an AT has a new place.
-// Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. drop_i, from behind, is
-//   high only in a clock in which a token is taken that does not end its frame: all that is here of the frame is
-//   forgotten, token_valid_o falls, and drop_o has the reader drop the rest of it. dropping_o: that is not done yet.
-//   token_ready_o depends on registers only.
-// Index: token_index_o is that of the token in the stream; what is made of a polygon has that of the token at hand.
+// How: the line's polygons lie in active_list by place, and the line's tokens come by place. Module front_merge
+//   compares the two heads by their places, so that neither is ever searched. The result is a register: a token is
+//   judged on its way to the head, a polygon on its way to the list's first place, and again when an AT has a new one.
+// Handshake: both sides as token_reader's: valid/ready, token and flags stable while they wait. Input drop_i, from
+//   behind, is high only in a clock in which a token is taken that does not end its frame. All that is here of the
+//   frame is then forgotten, token_valid_o falls, and drop_o has the reader drop the rest of it. Output dropping_o is
+//   high until that is done. Output token_ready_o depends on registers only.
+// Index: token_index_o is the token's index in the stream; a token made of a polygon has that of the token at hand.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull). After a
-//   token at fault what comes does not matter.
+//   token at fault the tokens that follow do not matter.
 // Latency: 12 clocks for a token; 28 from a polygon's second EDGE to its span. Throughput: a token a clock, a
 //   polygon of the line a clock, each once a line; a polygon's tokens come on the line where it begins, and where one
 //   of its edges does. A line's EOL is one of its tokens. A line that is crossed by polygons from above waits 3 clocks
@@ -367,7 +367,7 @@ module front_end #(
       room_q  <= 1'b1;
     end else begin
       under_q <= under_q + UnderBits'(item) - UnderBits'(out_next);
-      // What leaves now makes room a clock later.
+      // An item that leaves now makes room a clock later.
       room_q  <= under_q < UnderBits'(Under - 1) || (under_q == UnderBits'(Under - 1) && !item);
     end
   end

@@ -4,14 +4,14 @@
 //
 //   polygon_token, hls_edge_setup, active_list -> front_merge -> polygon_walk, active_list and, by item_*, volume_ends
 //
-// Handshake: head_*: valid/ready, the token at hand with its flags, its role_t and the place of the line's last AT;
-//   edge_*: valid/ready, of an EDGE the crossing that goes with it. list_*: active_list's reading side. An item leaves
-//   by item_valid_o, one clock, and only while room_i is high: with made_o it is polygon_o, which goes on to the next
-//   line where goes_on_o says so; else it is a token, a line's end with ends_line_o. flush_i: nothing is in here.
+// Handshake: head_* is valid/ready: the token at hand with its flags, its role_t and the place of the line's last AT.
+//   Port edge_*, valid/ready, brings an EDGE's crossing; list_* is active_list's reading side. An item leaves by
+//   item_valid_o, one clock, only while room_i is high. With made_o it is polygon_o, which goes on to the next line
+//   where goes_on_o says so; else it is a token, a line's end with ends_line_o. flush_i: nothing is in here.
 // Item: as volume_ends has it: {plain, whole, family, index, flags, token}.
-// Order: of the polygons of the list and the tokens of the line that whose place is less comes first; at the same place
-//   a polygon that begins comes behind the one that is there, and a span or a line's end behind all that come before
-//   it.
+// Order: polygons of the list and tokens of the line go by place, the lesser first. At the same place a span goes
+//   before the polygon that is there, and a polygon that begins behind it. A line's end goes behind all polygons of the
+//   list.
 // Faults: flags.fault of a token that is out of its place (ErrPlace), or a polygon too many (ErrActiveFull).
 // To active_list: pop_o, keep_o, swap_o, clear_o as it has them; next_line_o: the line behind the one at hand.
 // Latency: 0 clocks. Throughput: an item a clock.

@@ -4,7 +4,7 @@
 // design, LiteX and cocotbext-axi know an interface by them, and Vivado by the attributes too; kage_top has _i and _o.
 //
 // GBR_ORDER 1: a pixel's bytes are green, blue, red from the lowest, as AMD's video cores have RGB (UG934); 0: red,
-// green, blue, as everywhere else in kage. Of a core with one channel it changes nothing.
+// green, blue, as everywhere else in kage. In a core with one channel it changes nothing.
 // TKEEP: there is none: every byte of a beat counts, and what follows a frame's last word in its last beat is not
 //   looked at.
 //

@@ -2,13 +2,13 @@
 // kage: a span-stream rendering core. Frames of tokens in, video out; docs/stream.md is the contract, docs/rtl.md the
 // guide.
 //
-//   s_axis -> token_reader -> frame_control -> pixel_loads -> pixel_core -> line_out -> m_axis
-//   token_reader -> front_end -> frame_control     polygons to spans                                    (ACTIVE > 0)
-//   frame_control -> tree_core -> pixel_core       faces and segments, and lines of the tree        (UNITS > 0)
-//   frame_control -> line_queue -> line_out        what a line is, in order
-//   frame_control -> line_out                      the light table                                  (CLASS_BITS > 1)
-//   line_out -> pixel_loads                        colours that come back, darkened       (counters and TRANSLUCENCY)
-//   all of these -> registers on s_axil            status, errors, end of frame, what moves
+//    s_axis -> token_reader -> frame_control -> pixel_loads -> pixel_core -> line_out -> m_axis
+//    token_reader -> front_end -> frame_control     polygons to spans                                    (ACTIVE > 0)
+//    frame_control -> tree_core -> pixel_core       faces and segments, and lines of the tree        (UNITS > 0)
+//    frame_control -> line_queue -> line_out        what a line is, in order
+//    frame_control -> line_out                      the light table                                  (CLASS_BITS > 1)
+//    line_out -> pixel_loads                        colours that come back, darkened       (counters and TRANSLUCENCY)
+//    all of these -> registers on s_axil            status, errors, end of frame, what moves
 //
 // Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of
 //   s_axis and s_axil, which rst_ni keeps low.
@@ -134,9 +134,9 @@ module kage_top #(
   table_entry_t table_entry;
   load_t load;
 
-  // A line is under way from its EOL until its last pixel has left: at most 4 in the queue, 1 being sent, and, if each
-  // has one pixel, 5 + LightStages in line_out's pipeline and 2 behind it. So is one that comes back as loads, until
-  // its last has been taken.
+  // A line is under way from its EOL until its last pixel has left, and one that comes back as loads until its last has
+  // been taken. At most 4 are in the queue and 1 is being sent. If each has one pixel, 5 + LightStages are in
+  // line_out's pipeline and 2 behind it.
   localparam int LinesBits = COUNT_BITS > 0 ? 5 : 4;
   logic [LinesBits-1:0] lines_q;
 

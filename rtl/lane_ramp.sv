@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // A value that changes linearly along a span, for LANES neighbouring pixels at a time: depth, or one channel of colour.
 //
-// What it computes: clamp((start + (x - xl) * slope) >> FRAC, LO, HI) for x = first pixel of the group + lane; the sum
-//   in two's complement of BITS bits, the shift arithmetic. Lanes left of xl get values too, which nobody uses.
-// How: no products. Two set-up clocks, or three where a group has more than four lanes, make the value at the first
-//   group's first lane by subtracting the shifted slopes that the bits of xl's place in its group select. Then a tree
-//   doubles the number of lanes per clock: left half the same, right half plus slope x half the lanes. A multiplier per
-//   lane would be the core's slowest path.
-// Control: the parent moves the set-up stages but the last (set_en_i bit k lets stage k + 1 take what is before it),
-//   says when the last of these has something (put_i), and moves the walker (load_i: take the set-up's oldest
-//   result; step_i: one group further). The last stage is a queue of two, as the parent's own, so the walker moves no
-//   more of it than a pointer: put_i is acted on where there is room. The rest is a pipeline that always moves.
+// Result: clamp((start + (x - xl) * slope) >> FRAC, LO, HI) for x = first pixel of the group + lane; the sum in two's
+//   complement of BITS bits, the shift arithmetic. Lanes left of xl get values too, which nobody uses.
+// How: no products. The set-up, two clocks or three where a group has more than four lanes, makes the value at the
+//   first group's first lane. It subtracts the shifted slopes that the bits of xl's place in its group select. Then a
+//   tree doubles the number of lanes per clock: left half the same, right half plus slope x half the lanes. A
+//   multiplier per lane would be the core's slowest path.
+// Control: the parent moves the set-up stages but the last: set_en_i bit k lets stage k + 1 take the data before it. It
+//   says when the last of these has something (put_i), and moves the walker (load_i: take the set-up's oldest result;
+//   step_i: one group further). The last stage is a queue of two, like the parent's own, so the walker moves only a
+//   pointer of it: put_i is acted on where there is room. The rest is a pipeline that always moves.
 // Latency: value_o belongs to the group the walker held $clog2(LANES) + 2 clocks ago. Throughput: a group a clock.
 // Cost: about 2 x LANES adders and 3 x LANES registers of BITS bits. The queue's pointers alone are reset.
 `default_nettype none

@@ -3,12 +3,12 @@
 // leave one by one, so table and products exist once, not LANES times.
 //
 // Pixels: pixel_i is a word of ExitBits (kage_widths.svh), its counts 0 where the class is. LightStages clocks of go_i
-//   later pixel_o is its {covered, colour}, and factor_o each channel's factor in 2^-SHADE_FRAC, channel 0 lowest:
-//   max(0, 2^SHADE_FRAC - sum over lights of count x share), where without a table share is shade_i, which holds still
-//   while pixels are within.
+//   later pixel_o is its {covered, colour}, and factor_o has each channel's factor in 2^-SHADE_FRAC, channel 0 lowest.
+//   A factor is max(0, 2^SHADE_FRAC - sum over lights of count x share). Without a table the share is shade_i, which
+//   holds still while pixels are within.
 // Table (CLASS_BITS > 1): table_valid_i writes the entry of a class and a light. No pixel within may be of a frame
-//   before: frame_control waits for the way out to be empty. What has not been written is never looked up with a count
-//   other than 0. No share is more than 1.
+//   before: frame_control waits for the way out to be empty. An entry that was never written is looked up only with a
+//   count of 0. No share is more than 1.
 // Latency: with a table 5 clocks: RAM, the register behind it, products, sums, factors; without one 2: product, factor.
 //   Throughput: a pixel a clock.
 // Cost: with a table a RAM of 2^CLASS_BITS x CHANNELS x (SHADE_FRAC + 1) bits and CHANNELS products of COUNT_BITS x

@@ -3,12 +3,12 @@
 // multiplier of RESOLVE; background where nothing was drawn; AXI4-Stream video.
 //
 // Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by
-//   exit_valid_i (they cannot be stopped), the last with exit_last_i. line_* is valid/ready and brings each line's
-//   width and colours, in the order of the lines. m_axis_* is AXI4-Stream: tuser on a frame's first pixel, tlast on a
-//   line's last.
-// Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour,
-//   times 1 - shade if it is dark, rounded once: (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >> SHADE_FRAC. With
-//   counters every pixel has a factor of its own: light_resolve, which table_* loads.
+//   exit_valid_i (they cannot be stopped), the last with exit_last_i. Port line_* is valid/ready and brings each line's
+//   width and colours, in the order of the lines. Port m_axis_* is AXI4-Stream: tuser on a frame's first pixel, tlast
+//   on a line's last.
+// Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour. A
+//   dark pixel's colour is times 1 - shade, rounded once: (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >>
+//   SHADE_FRAC. With counters every pixel has a factor of its own: light_resolve, which table_* loads.
 // Loads (counters and translucency): a line with `load` leaves by load_*, valid/ready, not by m_axis_*: each pixel's
 //   place and colour.
 // Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so
@@ -163,7 +163,7 @@ module line_out #(
 
   assign moving_o = start || (go && (sending_q || valid_q != '0));
 
-  // What goes along with a pixel, one set of bits a stage, the first stage lowest.
+  // Data that goes along with a pixel, one set of bits a stage, the first stage lowest.
   logic [Depth-1:0] user_q, last_q, load_at_q;
   logic [LightStages+2:0] blank_at_q, painted_at_q;
   logic [2*LaneBits-1:0] lane_at_q;

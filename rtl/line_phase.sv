@@ -5,8 +5,8 @@
 // Question: kind_i. in_order_o, combinational. Tokens that belong to no line (kage_order.svh) always get 1.
 // Acts: start_i, one clock, when a line begins, and then take_i does not count; take_i, one clock, when the token has
 //   been taken, with IF's w_i. After one that was out of order nothing but start_i counts.
-// State: bias_o, as the token finds it: EV and ES clear it, and the line's first TP, which the line is painted for with
-//   the bias that it finds. resolved_o: a RESOLVE was the line's last token.
+// State: bias_o, as the token finds it. EV and ES clear it, and so does the line's first TP: the line is painted for
+//   it, with the bias that it finds. Output resolved_o: a RESOLVE was the line's last token.
 // Latency: answer 0, state 1 clock. Throughput: a token a clock.
 // Cost: DSF_BITS + 3 flip-flops; with counters one more.
 `default_nettype none

@@ -2,8 +2,8 @@
 // The pixels of a line in block RAM, LANES to a word: spans are walked one aligned group of LANES pixels a clock.
 //
 // Handshake: cmd_* is valid/ready; its contract is frame_control's. An EOL, or a CmdOut, starts its pass when
-//   exit_free_i is high, takes the buffer by a clock of exit_take_o, and then brings the line's groups in order by
-//   exit_valid_o, without stops; the last with exit_last_o. Pixels past the line's width in the last group are void.
+//   exit_free_i is high, and takes the buffer by a clock of exit_take_o. Then it brings the line's groups in order by
+//   exit_valid_o, without stops, the last with exit_last_o. Pixels past the line's width in the last group are void.
 // Tree (UNITS > 0): tree_line holds the tree's line, filled ahead of its TREE. A TREE waits until the line is in it
 //   whole, then reads it group by group along with the state. tree_drop_i forgets a part of a line.
 // Clocks: a command takes as many as the groups it touches, with none between commands. The pass of an EOL or CmdOut
@@ -11,9 +11,9 @@
 //   what the RAM held never matters.
 // Latency: set-up 2 clocks, or 3 where a group has more than four lanes, walker 1, lane values and RAM $clog2(LANES) +
 //   2, what is found ahead 1, next state 1, write 1. Throughput: a group a clock.
-// Hazards: a group is read 4 clocks before its next state is written, and the four results under way are forwarded.
-//   The result right before is not there yet, so depth is compared twice, a clock early: with the stored depth, as if
-//   that result changed nothing, and with the depth that it may bring; moved_q selects the answer. Behind an EOL every
+// Hazards: a group is read 4 clocks before its next state is written, and the four results under way are forwarded. The
+//   result right before is not there yet, so depth is compared twice, a clock early: with the stored depth, as if that
+//   result changed nothing, and with the depth that it may bring. Bit moved_q selects the answer. Behind an EOL every
 //   depth is in front; a blank pixel of the tree then draws what a clear pixel is. tree_line has its own hazards.
 // Cost: one RAM of ceil(MAX_WIDTH / LANES) words, LANES x state bits wide, with one read and one write port; two
 //   comparisons of depth a lane; with units tree_line.
@@ -44,12 +44,12 @@ module pixel_banked #(
   assign cmd = cmd_i;
 
   // ---- set-up stages -----------------------------------------------------------------------------------------------
-  // What stays unchanged: {leaves, tree, kind, count, weight, colour, first group, last group, first lane, last lane}.
+  // Unchanged fields: {leaves, tree, kind, count, weight, colour, first group, last group, first lane, last lane}.
   localparam int FlatBits = SMOOTH > 0 ? 1 : RgbBits;
   localparam int SetBits = 2 + KindBits + CountBits + ShareBits + FlatBits + 2 * AddrBits + 2 * OffBits;
-  // The last stage is a queue of two, and each lane_ramp has one of its own that moves with it: the walker, whose end
-  // of a span is known late, moves pointers, and the enables of all that lies ahead of it come from the queue's
-  // registers. Ahead of it are as many stages as lane_ramp has there.
+  // The last stage is a queue of two, and each lane_ramp has one of its own that moves with it. The walker, which knows
+  // the end of a span late, moves only pointers; the enables of all stages ahead of it come from the queue's registers.
+  // Ahead of it are as many stages as lane_ramp has there.
   localparam int SetStages = LANES > 4 ? 2 : 1;
   logic [SetBits-1:0] set_d, set_oldest;
   logic [SetStages*SetBits-1:0] set_q;
@@ -351,10 +351,10 @@ module pixel_banked #(
   logic [LANES*RgbBits-1:0] blended, blended_q;
   logic [AddrBits-1:0] done_addr_q;
   logic done_valid_q;
-  // The group computed 1 .. 4 clocks before is the same; of 1, 2 and 3 the lanes that it changed, which also keeps the
-  // number of bits low that a flip-flop selects. recent_q is 3 or 4 clocks old, for the lanes of use_recent_q. What the
-  // RAM gives goes into stored_q as it is, because nothing else fits in the clock of a block RAM's output. `settled` is
-  // what a pixel has of all groups but the one right before, a clock ahead; word is what it has.
+  // The group computed 1 .. 4 clocks before is the same: for 1, 2 and 3 a bit for each lane that it changed, so that a
+  // flip-flop selects few bits. Word recent_q is 3 or 4 clocks old, for the lanes of use_recent_q. The RAM's output
+  // goes into stored_q as it is, because nothing else fits in the clock of a block RAM's output. `settled` is a pixel's
+  // state after all groups but the one right before, a clock ahead; word is its state after all.
   logic [LANES-1:0] same1_q, same2_q, same3_q, use_recent_q;
   logic same4_q;
 
@@ -410,8 +410,8 @@ module pixel_banked #(
     end
   end
 
-  // Of each lane: whether the group right before has given the pixel a depth; whether this group's depth is in front of
-  // that, and whether it is in front of what the pixel had without it.
+  // In each lane: the group right before has given the pixel a depth (moved_q). This group's depth is in front of that
+  // one (before_new_q), or of the pixel's depth without it (before_old_q).
   logic [LANES-1:0] moved_q, before_new_q, before_old_q, in_front;
   logic now_opaque_q;  // of now_kind
   logic [LANES*Z_BITS-1:0] now_z;

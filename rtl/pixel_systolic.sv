@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
-// The pixels of a line as a chain of processors, one a pixel: commands move one processor a clock, as in Matsumoto's
-// line of pixel processors, and a new one may enter every clock, whatever its length.
+// The pixels of a line as a chain of processors, one a pixel, as in Matsumoto's line of pixel processors. Commands move
+// one processor a clock, and a new one may enter every clock, whatever its length.
 //
 // Handshake: cmd_* is valid/ready; its contract is frame_control's. Only an EOL or CmdOut can be made to wait: for
 //   exit_free_i, and for the line before it to have left. It takes the buffer by a clock of exit_take_o, and the line's
 //   pixels then leave one a clock by exit_valid_o, without stops; the last with exit_last_o. The next line's commands
 //   follow right behind the EOL.
 // Tree (UNITS > 0): a TREE enters when tree_* offers its line's first pixel, and takes one a clock from then on, in
-//   step with its way down the chain: the pixel that was taken a clock ago stands before all processors, and it is that
-//   of the one TREE is at. So it needs a line without bubbles, and no buffer. The next TREE waits until the line is
-//   through, at most its width.
+//   step with its way down the chain. The pixel taken a clock ago stands before all processors, and belongs to the one
+//   TREE is at. So a TREE needs a line without bubbles, and no buffer. The next TREE waits until the line is through,
+//   at most its width.
 // Clocks of a processor: in the first the command's depth and colour at its pixel are clamped, in the second they are
 //   compared and the pixel's state changes. The command has moved on by the second clock, so a processor reads its kind
 //   and counts from the next one's register.
 // Latency: command to first processor 1 clock, EOL at the first processor to its pixel at exit_data_o 3 clocks.
 // Throughput: a command takes one clock; two EOLs are at least the line's width apart, the time in which the first
 //   one's pixels leave.
-// Reset: an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted;
-//   commands follow right behind it, the first line's EOL waits until it is through.
+// Reset: an EOL that nobody sees runs ahead of all commands, so that no state needs a reset and none is trusted.
+//   Commands follow right behind it; the first line's EOL waits until it is through.
 // Cost: MAX_WIDTH times a command, a depth adder, a comparison and a pixel's state. The loops below are over vectors in
 //   one process: instances would simulate at half the speed.
 `default_nettype none
@@ -65,9 +65,9 @@ module pixel_systolic #(
 
 
   // ---- the chain ---------------------------------------------------------------------------------------------------
-  // Processor i holds, in vectors with processor 0 lowest: the command that is at it, depth and colour at this pixel;
-  // of the command that was at it a clock ago whether the pixel is in its range, depth and colour clamped; and the
-  // pixel's state. What goes along unchanged has a place more, for the last processor's second clock.
+  // Processor i holds, in vectors with processor 0 lowest: the pixel's state, and the command at it with depth and
+  // colour at this pixel. For the command of a clock ago it holds whether the pixel is in its range, and depth and
+  // colour clamped. Fields that go along unchanged have a place more, for the last processor's second clock.
   logic [N-1:0] valid_q, hit, hit_q, opaque_d, opaque_q;
   logic [(N+1)*KindBits-1:0] kind_q;
   logic [N*X_BITS-1:0] xl_q, xr_q;
@@ -197,7 +197,7 @@ module pixel_systolic #(
         if (pixel_blends(pixel, kind, in_front, count[DsfBits-1:0])) begin
           pixel_d[i*PixelBits+PixelColorAt+:RgbBits] = pixel_blend(pixel[PixelColorAt+:RgbBits], keep, added);
         end
-        // Of the EOLs and CmdOuts in the chain only one is among its line's pixels: the OR of all exits is that one's.
+        // Only one EOL or CmdOut in the chain is among its line's pixels, so the OR of all exits is that one's exit.
         if (kind == KindEol || (HasLoads && kind == CmdOut)) begin
           leaving = joined_d[(i/Segment)*ExitBits+:ExitBits] | pixel_exit(pixel, count[DsfBits-1:0]);
           joined_d[(i/Segment)*ExitBits+:ExitBits] = leaving;
@@ -247,7 +247,7 @@ module pixel_systolic #(
   end
 
   // ---- exit --------------------------------------------------------------------------------------------------------
-  // EOL enters in clock t and is at processor i in t + 1 + i and, for its second clock, in t + 2 + i; that pixel is in
+  // EOL enters in clock t. It is at processor i in t + 1 + i and, for its second clock, in t + 2 + i. That pixel is in
   // joined_q in t + 3 + i, and in exit_data_o in t + 4 + i.
   logic [ExitBits-1:0] all;
   logic at_q, at2_q, joined_valid_q, at_last, at2_last_q, joined_last_q;

@@ -28,8 +28,8 @@ module plane_at #(
     output logic [FIELD-1:0] step_o
 );
   localparam int KernelBits = 54;
-  // What is added before a value is cut (span_rounding in hls/kernels/span_setup.hpp): half of the bit that stays last,
-  // and of a start half an LSB.
+  // Rounding that is added before a value is cut (span_rounding in hls/kernels/span_setup.hpp): half of the bit that
+  // stays last, and to a start also half an LSB.
   localparam logic [KernelBits-1:0] StepRounding = SHIFT > 0 ? KernelBits'(1) << (SHIFT - 1) : '0;
   localparam logic [KernelBits-1:0] HalfLsb = FRAC > 0 ? KernelBits'(1) << (SHIFT + FRAC - 1) : '0;
   localparam logic [KernelBits-1:0] StartRounding = StepRounding + HalfLsb;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a token is to the front end, told by itself and by those before it, and whether it is in its place
+// The role of a token in the front end, from itself and the tokens before it, and whether it is in its place
 // (docs/stream.md, "The polygon level").
 //
-// Handshake: a register of a stream, in order: in_* valid/ready, and out_valid_o with the token, its flags and role_o,
-//   a role_t, until out_ready_i. polygons_i: the token's frame is at the polygon level. place_o is that of the last AT
-//   up to the token that is out. flush_i: nothing is in here.
+// Handshake: a register of a stream, in order: in_* is valid/ready, and out_valid_o offers the token, its flags and
+//   role_o, a role_t, until out_ready_i. Input polygons_i: the token's frame is at the polygon level. Output place_o
+//   is the place of the last AT up to the token that is out. flush_i: nothing is in here.
 // Latency: 1 clock. Throughput: a token a clock.
 // Cost: a register of a token and its flags, comparators of a place and of two numbers of lines.
 `default_nettype none

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // A polygon on a line: the span between its edges, and the polygon as it is on the next line.
 //
-// Handshake: a pipeline that moves each clock. in_valid_i: something enters; with in_made_i it is a polygon, polygon_i,
-//   that goes on to the next line if in_keep_i; without, something that has no span and passes at the same pace, a
-//   line's end if in_swap_i. It leaves by out_valid_o with, of a polygon, span_o. flush_i: nothing is in here.
+// Handshake: a pipeline that moves each clock. By in_valid_i an item enters. With in_made_i it is a polygon, polygon_i,
+//   that goes on to the next line if in_keep_i. Without, it has no span and passes at the same pace, and is a line's
+//   end if in_swap_i. It leaves by out_valid_o, a polygon with span_o. flush_i: nothing is in here.
 // Next line: write_o, one clock, for each polygon that goes on, in the order in which they came; next_o is the polygon;
 //   swap_write_o, one clock, for each line's end.
 // Latency: 6 clocks to the span, 2 to the next line. Throughput: a polygon a clock.
@@ -202,7 +202,7 @@ module polygon_walk #(
       if (made_q[1]) begin
         // 1. A span lies within the line, its left end first.
         assert (xl_q <= xr_q && xr_q <= width_i);
-        // 2. What is said of its pixels' number is so.
+        // 2. The flags on its number of pixels are right.
         assert (empty_q == (xl_q == xr_q) && single_q == (xr_q - xl_q == X_BITS'(1)));
       end
       // 3. A place of the walk is a polygon's or a line's end.

@@ -2,19 +2,18 @@
 // The registers of docs/stream.md on AXI4-Lite, the interrupt, the counters and the watchdog.
 //
 // Handshake: AXI4-Lite. Address and data of a write are taken in either order, and held. A write is done, and answered,
-//   in the clock in which both are held and no response waits; so the next write's address and data are taken while the
-//   response of the one before waits, and that write is done once the response has been taken. One read is under way at
-//   a time: the next address is taken when the data of the one before have been. Addresses without a register answer
-//   SLVERR and change nothing; writes to read-only registers are taken and ignored. WSTRB is honoured. In reset nothing
-//   is ready.
+//   in the clock in which both are held and no response waits. So the next write's address and data are taken while the
+//   response before waits, and that write is done once the response has been taken. One read is under way at a time:
+//   the next address is taken when the data of the one before have been. Addresses without a register answer SLVERR and
+//   change nothing; writes to read-only registers are taken and ignored. WSTRB is honoured. In reset nothing is ready.
 // Latency: 1 clock from the address to a read's data, 2 from the later of address and data to a write's response.
 // Throughput: a read and a write in two clocks each, beside each other.
 // Interrupt: irq_o is high while a bit of IRQ is set whose bit in CONTROL is set. An event that comes in the clock of
 //   its clearing wins.
-// What the core says is registered here first, so that counters add nothing to the core's paths. Registers, interrupt
+// The core's signals are registered here first, so that counters add nothing to the core's paths. Registers, interrupt
 //   and watchdog are therefore one clock late.
-// Cost: the registers, most of them of 32 bits; an adder for each counter, and a second set of flip-flops for what the
-//   core says: PARTS bits of progress_i, joined behind them, so that the parts' paths end where they are.
+// Cost: the registers, most of them of 32 bits; an adder for each counter; a second set of flip-flops for the core's
+//   signals. The PARTS bits of progress_i are joined behind theirs, so that the parts' paths end where they are.
 // Watchdog: bites once when WATCHDOG clocks have passed in a frame without progress; progress, or a write to it, starts
 //   it anew, a write a clock later. Any limit from 1 on will do: kage_top sees to it that whatever moves is progress.
 `default_nettype none

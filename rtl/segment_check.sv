@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules for FACE, SEG and TREE (docs/stream.md, "Units and the tree"): what each unit has been given, which tokens
-// may come, and which fault a TREE raises. token_check asks about the token that comes in; nothing here waits.
+// may come, and which fault a TREE raises. Module token_check asks about the token that comes in; nothing here waits.
 //
 // Question: is_*_i, at most one, says what the token is, *_i brings its fields; all hold still while the token waits.
 //   lines_left_i is the height less the number of EOLs taken. Every answer is combinational, and valid for the kinds
@@ -14,11 +14,11 @@
 //   range_error_o   FACE or SEG of a unit that the core lacks, FACE out of turn
 //   seg_pass_o      SEG: it goes to its unit; otherwise it is swallowed: its unit is or becomes at fault
 //   completes_o     SEG: it ends its unit's line, if it goes there
-//   tree_error_o    TREE: a unit is at fault for this line; tree_code_o, tree_unit_o and tree_token_o say how
+//   tree_error_o    TREE: a unit is at fault for this line; tree_code_o, tree_unit_o and tree_token_o say how.
 // State: tree_o, the frame has a tree; due_o, the line's TREE has not been taken yet, so only SEG and TREE may come.
-//   behind_o, some unit has been given more than another: behind_unit_o is the lowest of those that have fewest lines
-//   complete, and behind_ahead_o how many of them more than have ended. 1 clock late.
-// Two faults are kept, the first SEG at fault for this line and for the next: no SEG can be at fault for a later one,
+//   Output behind_o, 1 clock late as the two others: some unit has been given more than another. Output behind_unit_o
+//   is the lowest of the units that have fewest lines complete, behind_ahead_o how many more than have ended it has.
+// Two faults are kept, the first SEG at fault for this line and for the next. No SEG can be at fault for a later one,
 //   and none is left from an earlier one, because that line's TREE has raised it.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
 // Cost: per unit FACE_BITS + X_BITS + SEG_BITS + 5 flip-flops and the multiplexers to them; comparators once.
@@ -160,7 +160,7 @@ module segment_check #(
     end else if (take_i) begin
       if (is_face_i) faces_q[unit*FACE_BITS+:FACE_BITS] <= faces + 1'b1;
       if (seg_fault) fault_q[unit] <= 1'b1;
-      // Of a unit at fault nobody asks for these two any more.
+      // Nobody asks for these two of a unit at fault any more.
       if (is_seg_i) begin
         rest_q[unit*X_BITS+:X_BITS] <= rest_next;
         count_q[unit*SEG_BITS+:SEG_BITS] <= completes ? '0 : count + 1'b1;

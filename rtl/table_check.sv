@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules for the light table (docs/stream.md, "What a pixel does"): its entries come in order, and no class is used
-// before the frame's table has it whole. token_check asks about the token that comes in; nothing here waits.
+// before the frame's table has it whole. Module token_check asks about the token that comes in; nothing here waits.
 //
 // Question: class_i and light_i are TABLE's, share_i its shares, span_class_i the class of OP or FACE. Answers are
 //   combinational:
 //   order_error_o   TABLE may not come any more: something other than TABLE and FACE has come
 //   range_error_o   TABLE: not the next entry, or a share of more than 1
-//   lacking_o       the table has not span_class_i whole
-// Acts: frame_start_i, one clock, at a header; then of each token, in the clock in which it is taken, what it is:
-//   take_table_i a TABLE, take_other_i anything else but FACE. After one that was refused nothing but frame_start_i
+//   lacking_o       the table has not span_class_i whole.
+// Acts: frame_start_i, one clock, at a header. In the clock in which a token is taken, take_table_i says that it is a
+//   TABLE, take_other_i that it is anything else but FACE. After one that was refused nothing but frame_start_i
 //   counts.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
 // Cost: CLASS_BITS + LightBits + 2 flip-flops, a comparison of CLASS_BITS + 1 bits.

@@ -2,12 +2,12 @@
 // Whether a token of a frame's body is good: kind, order, range, line (docs/stream.md, "Errors"). token_stage asks
 // about the token that comes in; nothing here waits. Headers are token_stage's own.
 //
-// Question: token_* as from token_reader, bad_range_i as token_facts has it; width_i, line_i and lines_left_i (how many
-//   EOLs have come, and the height less that), lines_done_i (that is 0), first_i (only the header has come) and
-//   index_i, its number in the frame.
-// Answer, combinational, not of a header: good_o; code_o, ErrNone if it is good; raised_o: a TREE raises the fault of a
-//   unit, and fault_*_o are the unit and the token that are to blame. seg_goes_o: it is good, and a SEG that its unit
-//   takes; a good SEG without it is swallowed. completes_o: it ends its unit's line.
+// Question: token_* as from token_reader, bad_range_i as token_facts has it, width_i, and index_i, the token's number
+//   in the frame. Lines: line_i EOLs have come, lines_left_i is the height less that, lines_done_i says that it is 0.
+//   Input first_i: only the header has come.
+// Answer, combinational, not for a header: good_o; code_o, ErrNone if it is good. Output raised_o: a TREE raises the
+//   fault of a unit, and fault_*_o are the unit and the token to blame. Output seg_goes_o: it is a good SEG that its
+//   unit takes; a good SEG without it is swallowed. Output completes_o: it ends its unit's line.
 // Acts: take_i, one clock, the token comes in. After one that is not good nothing but a header counts.
 // State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token. behind_*_o: as segment_check
 //   has it, of units; without units 0.
@@ -215,7 +215,7 @@ module token_check #(
 `ifndef SYNTHESIS
   always @(posedge clk_i) begin
     if (rst_ni) begin
-      // 1. What is good has no code, and what is not has one.
+      // 1. A good token has no code, and any other has one.
       assert (!take || good == (code_o == ErrNone));
       assert (!seg_goes_o || code_o == ErrNone);
     end

@@ -2,8 +2,8 @@
 // The command that frame_control gives the pixels, made of the token at hand, and the buffer that holds it until they
 // take it.
 //
-// Handshake: free_o says that a command may be made, and depends on registers only: in a clock in which it is high,
-//   make_i may be, and the command is in cmd_* from the next clock on, which is valid/ready. Token, width, share, bias
+// Handshake: free_o says that a command may be made, and depends on registers only. In a clock in which it is high,
+//   make_i may be high: from the next clock on the command is in cmd_*, which is valid/ready. Token, width, share, bias
 //   and background are those of that clock.
 // Commands: of the token, which has a range; or, by the first of eol_i, paint_i, out_i, tree_i that is high, over the
 //   whole line: EOL, RESOLVE with the background as its colour, CmdOut, TREE. They say what it would be, whether or not

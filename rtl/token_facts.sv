@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a token says by itself, whatever came before it; token_stage and token_check judge what depends on the frame.
+// The facts of a token by itself, whatever came before it; token_stage and token_check judge what depends on the frame.
 //
 // Question: token_i as it comes into token_stage. Answer: facts_o as facts_t. head_error is for headers only, bad_range
 //   and empty for tokens of a body only.

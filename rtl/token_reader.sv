@@ -2,11 +2,11 @@
 // Beats to tokens: cuts the words of the input port into the frame's header and its tokens, one whole token at a time.
 //
 // Handshake: s_axis_* is AXI4-Stream; s_axis_tready_o depends on registers and on rst_ni, which keeps it low: no beat
-//   is taken and lost in reset. token_* is valid/ready, the token and its flags stable while it waits. Without
-//   token_valid_o they are what comes next, in part, or the token before; `header` is then high only while no token
-//   of another frame is to come first. drop_i may be high only with token_ready_i, and only for a token without the
-//   flag `ends`: the rest of the frame is then dropped up to and with TLAST. The reader drops the rest by itself
-//   after a token that ends it (END, or one that TLAST cut).
+//   is taken and lost in reset. Port token_* is valid/ready, the token and its flags stable while it waits. Without
+//   token_valid_o they are the next token, in part, or the token before; `header` is then high only while no token of
+//   another frame is to come first. Input drop_i may be high only with token_ready_i, and only for a token without the
+//   flag `ends`. The rest of the frame is then dropped up to and with TLAST. The reader drops the rest by itself after
+//   a token that ends it (END, or one that TLAST cut).
 // Levels: with POLYGONS a frame's header says by its version which tokens it has (docs/stream.md, "The polygon level").
 // Order: the first token of a frame is its header (HeaderWords words). A token of a kind that the configuration lacks
 //   is passed on as soon as its first word is there. A cut token is passed on with the flag `cut` and whatever words
@@ -64,8 +64,8 @@ module token_reader #(
 
   // ---- beats that came ---------------------------------------------------------------------------------------------
   logic [BeatBits-1:0] mem[Depth];
-  // What each word says if a token begins with it, for a second address: {last of its frame, lacking, words behind it}.
-  // Words behind it, not words, because what was never written must not look like a token of none.
+  // Facts of each word if a token begins with it, for a second address: {last of its frame, lacking, words behind it}.
+  // Words behind it, not words, because a word that was never written must not look like a token of none.
   localparam int WordsBits = $clog2(TOKEN_WORDS);
   localparam int SaidBits = 2 + WordsBits;
   logic [SaidBits*BEAT_WORDS-1:0] said[Depth];
@@ -113,8 +113,8 @@ module token_reader #(
     assign said_in[SaidBits*w+:SaidBits] = {kind == KindEnd, words == 5'd0, behind};
   end
 
-  // ---- looking ahead: where the token behind the front begins, of what kind it is, and where it ends ---------------
-  // So the token's length, found by an address, is not in one path with what taking a token depends on.
+  // ---- looking ahead: begin, kind and end of the token behind the front --------------------------------------------
+  // So the token's length, found by an address, is not in one path with the signals that take a token.
   logic [WordAtBits-1:0] next_rest, next_end_at, words_ahead;
   logic header_q;  // the next one is the frame's header
   logic next_there, look;
@@ -216,7 +216,7 @@ module token_reader #(
       end_beat_q <= next_end_beat;
       flushed_q <= dropping_q;
       if (dropping_q) begin
-        // What is held goes; the next frame begins with a beat.
+        // The beats held go; the next frame begins with a beat.
         next_at_q <= WordAtBits'(next_end_beat) << OffBits;
         front_at_q <= WordAtBits'(next_end_beat) << OffBits;
         front_valid_q <= 1'b0;
@@ -250,10 +250,10 @@ module token_reader #(
     if (rst_ni) begin
       // 1. Only a token that is accepted and not final can ask for the rest to be dropped.
       assert (!drop_i || (token_valid_q && token_ready_i && !flags_q.ends));
-      // 2. What is held fits. (Behind a cut token the front may lie past what came.)
+      // 2. The beats held fit. (Behind a cut token the front may lie past what came.)
       assert (dropping_q || beats_held <= BeatAtBits'(Depth));
       assert (full_q == (beats_held == BeatAtBits'(Depth)));
-      // 3. What is dropped is of a frame whose header has been taken: busy_o need not ask for dropping_q.
+      // 3. A frame is dropped only when its header has been taken: busy_o need not ask for dropping_q.
       assert (!dropping_q || !header_q);
     end
   end

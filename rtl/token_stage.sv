@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// The stage in front of frame_control: a token is judged by token_facts and token_check in the clock in which it comes
-// in, and stands in a queue with its verdict until frame_control is done with it. So what a token may do is known from
-// flip-flops.
+// The stage in front of frame_control. In it token_facts and token_check judge a token in the clock in which it comes
+// in; it stands in a queue with its verdict until frame_control is done with it. So frame_control knows from flip-flops
+// what a token may do.
 //
 // Handshake: token_* is valid/ready, token_ready_o depends on registers only. held_* is valid/ready, token and verdict
 //   stable while it waits; held_ready_i may depend on them.
-// State: width and lines are set by a header as soon as it shows, token_valid_i or not; they, index, phases, the
-//   table's and the units' state advance with each token that comes in, good or not. So after a token at fault they
-//   are wrong, and nobody asks: no token comes in behind it but a header, which sets all of them anew.
+// State: a header sets width and lines as soon as it shows, token_valid_i or not. These, index, phases, the table's and
+//   the units' state advance with each token that comes in, good or not. After a token at fault they are wrong, and
+//   nobody asks: only a header comes in behind it, which sets all of them anew.
 // Errors: a token at fault lets none in behind it until frame_control has taken it. If it does not end its frame,
-//   another token of the frame follows: that one is taken and forgotten, and drop_o, in this clock, has the reader drop
-//   what is behind it, unless it ends the frame itself. dropping_o: that token has yet to come.
+//   another token of the frame follows, which is taken and forgotten. In this clock drop_o has the reader drop the rest
+//   of the frame, unless that token ends it. Output dropping_o: that token has yet to come.
 // Fault: fault_unit_o and fault_token_o count while the token held is at fault: whom a TREE blames; otherwise unit 0
 //   and the token's own index.
 // Units: unit_behind_o, 1 clock late: a unit has been given more than another by the tokens that came in; behind_o
@@ -193,7 +193,7 @@ flags_t flags;
       .behind_ahead_o (ahead_of_behind)
   );
 
-  // What the token is, so that frame_control finds no kind in the clock in which it acts on it.
+  // The token's kind, decoded, so that frame_control finds no kind in the clock in which it acts on it.
   logic [KindBits-1:0] kind;
   logic body;
   assign kind = token_i[KindBits-1:0];
@@ -249,9 +249,9 @@ flags_t flags;
       // 2. A token to be dropped is of the frame of the one at fault.
       assert (!drop_q || !token_valid_i || !flags.header);
       assert (!drop_q || !held_valid_o);
-      // 3. Token and verdict are of each other.
+      // 3. Token and verdict belong together.
       assert (queue_ready == token_room && held_valid_o == token_there);
-      // 4. Of lines that are left.
+      // 4. The flag for no lines left is right.
       assert (!take || flags.header || wrong_q || lines_done_q == (left_q == '0));
     end
   end

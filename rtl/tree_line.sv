@@ -3,14 +3,14 @@
 // and class. A TREE reads it group by group along with the state of the pixels.
 //
 // In: tree_* is valid/ready. A pixel comes in a clock, whether or not a TREE is near, until the line is in whole, with
-//   `last` at its last pixel; the next line comes in right behind the pass that reads this one. drop_i forgets a part
-//   of a line, and a pixel that is offered in the same clock.
+//   `last` at its last pixel. The next line comes in right behind the pass that reads this one. Input drop_i forgets a
+//   part of a line, and a pixel that is offered in the same clock.
 // Out: here_o says that the line is in whole, so a pass may begin, by a clock of pass_i. A pass reads its groups in
 //   order and without stops: rd_en_i asks for group rd_group_i, group 0 Levels + 1 clocks after pass_i. Each lane's
 //   depth, colour and class are at z_o, color_o and class_o 2 clocks after rd_en_i.
 // Latency: a line is here in the clock after its last pixel. Throughput: a pixel a clock in, a group a clock out.
 // Hazards: the pass reads its group g Levels + 1 + g clocks after pass_i. The next line's first pixel may come in the
-//   clock in which group 0 is read: its group g, even if it ends there with one pixel, is written 2 + g clocks later at
+//   clock in which group 0 is read. Its group g, even if it ends there with one pixel, is written 2 + g clocks later at
 //   the earliest, so the pass is ahead of it all the way. Until then full_q speaks of the old line.
 // Cost: a RAM of ceil(MAX_WIDTH / LANES) words of LANES pixels, two registers of a word.
 // Needs UNITS > 0: a core without units leaves it out.

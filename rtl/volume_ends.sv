@@ -3,12 +3,12 @@
 // at the polygon level do without. A volume ends where a token of another one comes, or one that is of no volume; its
 // range is the union of its spans.
 //
-// Handshake: valid/ready on both sides, item_* with span_i where the item is a polygon's (item_made_i). item_ready_o
-//   depends on token_ready_i, which comes from a register.
-// Item: {plain: a token that passes as it is, whatever volumes are open; whole: a near cap over the whole line; family:
-//   the place but for its rank; index: in the frame, of the token at hand; flags, token: of one that is not a
-//   polygon's}.
-// flush_i: nothing is open, as after reset and behind a header.
+// Handshake: valid/ready on both sides, item_* with span_i where the item is a polygon's (item_made_i). Output
+//   item_ready_o depends on token_ready_i, which comes from a register.
+// Item: {plain, whole, family, index, flags, token}. Plain: a token that passes as it is, whatever volumes are open.
+//   Whole: a near cap over the whole line. Family: the place but for its rank. Index: in the frame, of the token at
+//   hand. Flags, token: of an item that is not a polygon's.
+// Flush: by flush_i nothing is open, as after reset and behind a header.
 // Latency: 1 clock. Throughput: a token a clock; an end of a volume, of a sample, and RESOLVE are tokens like others. A
 //   polygon without pixels, or whose weight is 0, takes a clock and gives none; without FSF so does a volume's end.
 // Cost: a register of an item, four numbers of X_BITS, the family, comparators of X_BITS and of the family.
@@ -93,7 +93,7 @@ module volume_ends #(
     sp_of[SpDzLsb+:DepthBits] = dz;
   endfunction
 
-  // What a near cap of this weight over the whole line says.
+  // The token of a near cap of this weight over the whole line.
   function automatic logic [TokenBits-1:0] if_of(input logic [DSF_BITS:0] w);
     if_of = '0;
     if_of[KindBits-1:0] = KindIf;
@@ -172,7 +172,7 @@ module volume_ends #(
   logic [LightBits-1:0] of_light_q;
   logic [31:0] index_q;
   assign judged.none = item_made_i && (coming_span.empty || (layer == 2'd1 && no_weight));
-  // What is not plain has a range, or is an EOL.
+  // An item that is not plain has a range, or is an EOL.
   assign judged.of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 : kind_has_range(
       kind
   ) && kind != KindOp && kind != KindTp);

@@ -14,7 +14,7 @@ class NotThese(Exception):
 
 
 def hash_of(files):
-    """Of the files' contents, in this order: rows of other files do not go together."""
+    """Hash of the files' contents, in this order: rows of other files do not go together."""
     return hashlib.sha256(b"".join(hashlib.sha256(f.read_bytes()).digest() for f in files)).hexdigest()[:16]
 
 
@@ -75,7 +75,7 @@ def what_matters(path):
 
 
 def of_what(top, names, values=None):
-    """What a figure keeps of the files `names` and of `values`, anything that JSON can hold."""
+    """Hashes that a figure keeps of the files `names` and of `values`, anything that JSON can hold."""
     files = {name: hashlib.sha256(what_matters(top / name).encode()).hexdigest() for name in sorted(set(names))}
     whole = json.dumps([files, values], sort_keys=True)
     return {"sha256": hashlib.sha256(whole.encode()).hexdigest(), "files": {n: h[:8] for n, h in files.items()}}

@@ -53,8 +53,8 @@ step() {
   return $rc
 }
 
-# at_once FOLDER FUNCTION ITEM...: the function for each item, as many at once as there are processors, each with its output in
-# FOLDER/FUNCTION-ITEM.log and .err; then what they printed there, item by item. What the function calls and reads must be exported. Exit code 1: one failed.
+# at_once FOLDER FUNCTION ITEM...: runs the function for each item, as many at once as there are processors, each with its output in
+# FOLDER/FUNCTION-ITEM.log and .err; then prints that output, item by item. Functions and variables that it uses must be exported. Exit code 1: one failed.
 at_once() {
   local folder=$1 function=$2 item rc=0
   shift 2

@@ -22,7 +22,7 @@ SCHEMA = "kage.regress-mutants/1"  # of a row: docs/schema
 
 
 def run(kage, number, options, out):
-    """What kage regress says of a mutant."""
+    """The report of kage regress on a mutant."""
     command = [kage, "regress", "--mutant", str(number), "--no-divergence", "--json", "-", "--out", out]
     command += ["--minutes", str(options.minutes), "--seed", str(options.seed)]
     done = subprocess.run(command, capture_output=True, text=True)
@@ -94,7 +94,7 @@ KINDS = ("random", "mixed", "damaged", "scene")  # in the order of a round of ka
 
 
 def kind(name):
-    """What sort of run "damaged.glass.0" is."""
+    """The kind of a run, by its name: "damaged" for "damaged.glass.0"."""
     return name.split(".")[0] if name.split(".")[0] in KINDS else "scene"
 
 

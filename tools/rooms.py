@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The rooms of the source tree, which of them may include which (docs/architecture.md, "Layers"), and the files that an include
-names. contract/layers holds includes, CMake lists and Python imports to it; tools/selection.py finds by it the tests that a
-change concerns."""
+"""The rooms of the source tree, and which of them may include which (docs/architecture.md, "Layers"). The test contract/layers
+holds every include to this table, and CMake lists and Python imports. By the same table tools/selection.py finds the tests
+that a change concerns."""
 
 import posixpath
 import re
@@ -83,7 +83,8 @@ ABOVE = {
     "cli": ["cli", "explore", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", *MODEL],
 }
 
-# What is installed, and what an installed kage is made of. No list installs anything else but pages at the top.
+# The products: all that is installed, and all that an installed kage is made of. Lists install nothing else, but for pages at
+# the top.
 PRODUCTS = (
     "cli",
     "cmake",
@@ -101,7 +102,7 @@ PRODUCTS = (
     "verif/stimulus",
     "verif/vectors",
 )
-# What judges, tries and measures it. No CMake list of a product's room names a file of it, and no Python file of a product.
+# Rooms that judge, try and measure the products. No CMake list of a product's room names a file of it, and no Python file of a product.
 # (sources.yaml of verif/cosim/model/driver does: models with mutants are built in a source tree only.)
 JUDGES = ("verif/bench", "verif/extremes", "verif/fuzz", "verif/mutants", "verif/test")
 
@@ -119,7 +120,7 @@ IMPORTS = {
     "verif/test": ["hls/tool", "python", "tools"],
 }
 
-# What a CMake list has of rooms that its own may not include, and why it may.
+# Exemptions: a CMake list, a room that its own may not include, and why it has files of it.
 EXEMPT = {
     ("ref/CMakeLists.txt", "explore"): "a checksum of what modules and their callers take a table to be",
     ("verif/cosim/CMakeLists.txt", "session"): "a checksum of all that judges, by which verdicts are kept",
@@ -127,8 +128,8 @@ EXEMPT = {
     ("verif/test/CMakeLists.txt", "cli"): "all headers in one unit",
 }
 
-# What of the golden model makes, draws or tells what oracles judge, and the oracles that call it: they make what is then
-# judged.
+# Functions and classes of the golden model that make what oracles judge. The oracles of DRAWING call one: they draw, and then
+# judge it.
 DRAWS = (
     "GoldenCore",
     "Renderer",

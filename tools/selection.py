@@ -144,8 +144,9 @@ class Tree:
 
     @functools.cache
     def interface(self, changed):
-        """The headers through which a changed C++ file is called: itself or the one of its name, then those of files of its
-        room that include one of these, and so on; all of its room where it has none. A test's source is called by nobody."""
+        """The headers through which a changed C++ file is called. The first is itself or the one of its name, or all of its room
+        where it has none. Then come the headers of files in its room that include one of these, and so on. Nobody calls a
+        test's source."""
         if room_of(changed) == "verif/test":
             return {changed}
         room = self.room(changed)

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sentences that a tired reader has to read twice: longer than 35 words, or opened by a word that stands for a noun which
-never comes ("What it gives is ...", "Of these the first ...", "That which ...").
+"""Sentences that a tired reader has to read twice. They are longer than 35 words, or their first word stands for a noun
+that never comes ("What it gives is ...", "Of these the first ...", "That which ...").
 
 usage: words.py FILE...      A line for each: FILE:LINE: why: the sentence. Exit code 1: there is one.
 
-Markdown is read whole but for its code blocks. Of C++, C, SystemVerilog, Python, shell, CMake and YAML files the comments are
-read, docstrings among them, and of C++ files in cli/ the texts too, which are what a person reads on the screen.
+Markdown is read whole but for its code blocks. In C++, C, SystemVerilog, Python, shell, CMake and YAML files comments are
+read, docstrings among them. In C++ files in cli/ the texts are read too, which a person sees on the screen.
 """
 
 import io

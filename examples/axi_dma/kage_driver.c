@@ -93,7 +93,7 @@ static enum kage_result finish(struct kage_device* d, struct kage_outcome* outco
   outcome->frames = core_read(d, KAGE_REG_FRAMES);
   outcome->pixels = dma_read(d, KAGE_DMA_PIXELS);
   const uint32_t status = dma_read(d, KAGE_DMA_STATUS);
-  /* What memory refused makes a malformed frame, so it is told first. */
+  /* An access that memory refused makes the frame malformed, so the memory error is reported first. */
   if (status & (KAGE_DMA_STATUS_FEED_FAILED | KAGE_DMA_STATUS_CAPTURE_FAILED)) return KAGE_MEMORY_ERROR;
   if (was_in_error) return KAGE_MALFORMED;
   return ended ? KAGE_OK : KAGE_WRONG_SIZE;

@@ -61,7 +61,7 @@ struct kage_job {
   uint32_t width, height;
 };
 
-/* What became of it. */
+/* Outcome of a job. */
 struct kage_outcome {
   uint32_t frames;                          /* ended since reset */
   uint32_t pixels;                          /* written */
@@ -81,7 +81,7 @@ struct kage_device {
 extern "C" {
 #endif
 
-/* Looks whether the core is there and takes frames of this version and these parameters, which a frame's header has in
+/* Looks whether the core is there and takes frames of this version and these parameters. A frame's header has them in
  * its first word (bits 15-0) and its third. watchdog: clocks without progress after which the core gives notice; more
  * than memory ever rests. */
 enum kage_result kage_open(struct kage_device* device, const struct kage_bus* bus, uint32_t version,
@@ -91,8 +91,9 @@ enum kage_result kage_open(struct kage_device* device, const struct kage_bus* bu
  */
 enum kage_result kage_draw(struct kage_device* device, const struct kage_job* job, struct kage_outcome* outcome);
 
-/* After KAGE_STALLED or KAGE_WRONG_SIZE: waits for the frame's end, for so many clocks at most, captures what is
- * captured yet and lets other pixels go. KAGE_TIMEOUT: it stands still yet, and what helps is a reset of the design. */
+/* After KAGE_STALLED or KAGE_WRONG_SIZE: waits for the frame's end, for `clocks` clocks at most, captures the pixels
+ * that can still be captured and drops others. KAGE_TIMEOUT: the core has not gone on, and only a reset of the design
+ * helps. */
 enum kage_result kage_recover(struct kage_device* device, uint32_t clocks, struct kage_outcome* outcome);
 
 /* The name of an error of frames (KAGE_ERR_HEADER: "HEADER"), and a result in words. */

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The bench of kage_dma: a memory behind its AXI4 ports, and a processor that is this program. The driver's reads and
 // writes are AXI4-Lite transactions, its wait is the interrupt line. All frames of a pack are drawn, sound and
-// malformed; then the output and the memory stand still on purpose. What is in memory afterwards is held against the
-// pack's pixels.
+// malformed; then the output and the memory stand still on purpose. Afterwards the pixels in memory are compared with
+// the pack's.
 //
 // usage: sim PACK [SEED]      Exit code 0: all the same. 1: different. 2: trouble.
 #include <kage/registers.h>
@@ -121,11 +121,11 @@ class Bench {
     return false;
   }
 
-  // What broke a rule of the bus; empty: nothing.
+  // The broken rule of the bus; empty: none.
   const std::string& complaint() const { return complaint_; }
 
  private:
-  // What the memory does with a burst.
+  // A burst that the memory serves.
   struct Burst {
     std::uint32_t address = 0, beats = 0;
   };

@@ -12,7 +12,7 @@ enum my_kind { MY_OP, MY_SP, MY_NC, MY_EV, MY_RESOLVE, MY_EOL };
 
 enum my_defect { MY_SOUND, MY_DEPTH, MY_FLAG };
 
-/* What is the same for all pixels. */
+/* The values that all pixels share. */
 struct my_line {
   int z_bits, z_frac, dsf_bits, shade_frac;
   uint32_t shade;
@@ -35,7 +35,7 @@ struct my_pixel {
   uint32_t dsf, fsf;
 };
 
-/* What the token does to the pixel at x. The line's bias is the caller's. */
+/* Applies the token to the pixel at x. The line's bias is the caller's. */
 void my_pixel_step(struct my_pixel* p, const struct my_line* line, const struct my_token* t, int x);
 
 #endif

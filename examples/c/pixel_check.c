@@ -79,7 +79,7 @@ static int compare(kage_golden* core, int frame, long* checked) {
   return SAME;
 }
 
-/* What leaves at EOL: colour, or the background where nothing was drawn. Before the processor clears its pixels. */
+/* Compares the line at EOL, before the processor clears it: colours, or the background where nothing was drawn. */
 static int compare_out(kage_golden* core, int frame) {
   const uint32_t clear = ((uint32_t)1 << line.z_bits) - 1;
   int x, c;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """kage_axi under cocotb, by AXI models that share nothing with kage's own co-simulation: cocotbext-axi's stream source and
-sink, and its AXI4-Lite master. What must come out is told by the golden core (the package kage, ../../python).
+sink, and its AXI4-Lite master. The golden core (the package kage, ../../python) gives the expected output.
 
 $KAGE_STREAM names the stream file whose first frame is drawn. The core's parameters are those of the file.
 """
@@ -83,7 +83,7 @@ class Bench:
         in_reset = 0
         while True:
             await RisingEdge(dut.aclk)
-            # What the edge sees: the values of the clock that it ends.
+            # Here signals have the values that the edge samples: those of the clock that it ends.
             reset = not dut.aresetn.value
             in_reset = in_reset + 1 if reset else 0
             if not reset or in_reset > 1:

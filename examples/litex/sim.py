@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the frames of a pack by kage in a SoC of LiteX, under LiteX's simulator, and holds pixels and registers against it.
 
-The SoC has no processor. What one would do is a list of accesses to the SoC's bus (Accesses, below): it reads and writes the
+The SoC has no processor. In its place stands a list of accesses to the SoC's bus (Accesses, below). It reads and writes the
 core's registers through the bridge from Wishbone to AXI4-Lite, starts LiteX's DMA, which reads the frame from RAM, and
-waits for the interrupt. Each pixel and each answer is printed by the simulation and looked at here.
+waits for the interrupt. The simulation prints each pixel and each answer, and this program checks them.
 
 usage: sim.py [--config NAME|FILE] [--scene SCENE] [--size WxH] [--pack FOLDER] [--work FOLDER] [--rtl FOLDER] [--jobs N]
 Exit code 0: all the same. 1: different. 2: trouble.
@@ -120,7 +120,7 @@ class Soc(SoCMini):
 
 
 class Script:
-    """What the processor does, and what it must get: reads have a name and a value that is expected, None for any."""
+    """The processor's accesses, and the answers expected: a read has a name and its expected value, None for any."""
 
     def __init__(self, csr):
         self.csr, self.steps, self.expected = csr, [], []
@@ -203,7 +203,7 @@ def simulate(soc, script, work, jobs):
         soc.platform.build(
             soc, build_dir=str(work), sim_config=simulation, run=False, jobs=jobs, opt_level="O1", interactive=False
         )
-    # Of LiteX's modules for the simulator the clock alone: others talk to a network or a terminal.
+    # Only the clock of LiteX's modules for the simulator: others talk to a network or a terminal.
     environment = {**os.environ, "MAKEFLAGS": "-- MODULES=clocker"}
     with open(work / "build.log", "w") as log:
         subprocess.run(

@@ -25,8 +25,8 @@ struct SpanSetupOut {
   hw::s<BITS> step;   ///< 0 for a span of one pixel
 };
 
-/// What is added before a value is cut to FRAC fraction bits. Half of the bit that stays last rounds to nearest, halves
-/// up; a start has half an LSB besides (docs/stream.md, Depth of a span at x), which is 2^23 in 2^-24 whatever FRAC is.
+/// Addends before a value is cut to FRAC fraction bits. Half of the last kept bit rounds to nearest, halves up. A start
+/// has half an LSB besides (docs/stream.md, Depth of a span at x), which is 2^23 in 2^-24 whatever FRAC is.
 struct SpanRounding {
   std::int32_t start, step;
 };
@@ -36,8 +36,9 @@ constexpr SpanRounding span_rounding(int frac) {
 }
 
 /// Start and step of a depth or a colour along a span (ref/frontend/span_setup.hpp; docs/numbers.md, Depth along a
-/// span), each within half of 2^-FRAC. floor((v + r) / 2^s) + h = floor((v + r + h 2^s) / 2^s), so one sum does both
-/// roundings. For planes whose spans stay within the accumulator, as those of the polygon level do.
+/// span), each within half of 2^-FRAC. One sum does both roundings:
+///   floor((v + r) / 2^s) + h = floor((v + r + h 2^s) / 2^s).
+/// For planes whose spans stay within the accumulator, as those of the polygon level do.
 template <int BITS>
 void span_setup(const SpanSetupIn<BITS>& in, SpanSetupOut<BITS>& out) {
   using Value = hw::s<BITS>;

@@ -97,7 +97,7 @@ def delays_of(device: str) -> Delays:
 
 
 def modules(device: str, stages: int | None) -> dict[pathlib.Path, str]:
-    """All generated files. Those that the core has lie with its modules."""
+    """All generated files. Files of the core lie with its modules."""
     delays = delays_of(device)
     made = {}
     for name, entry in yaml.safe_load((HLS / "kernels.yaml").read_text()).items():

@@ -25,7 +25,7 @@ sys.path.insert(0, str(TOP / "tools/fpga_flow"))
 import flow  # noqa: E402
 import programs  # noqa: E402
 
-# Of an operation: widths, and how many follow each other.
+# For each operation: widths, and how many follow each other.
 OPERATIONS = {
     "add": ((8, 16, 24, 32, 48), (1, 2, 3)),
     "mux": ((8, 16, 24, 32, 48), (1, 2, 3)),

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """A kernel as a graph of operations on bit vectors.
 
-Each node has one value of `width` bits. What costs nothing in hardware is written as wiring (slice, cat, sext), and
-nodes are simplified as they are made: constants are folded, equal nodes are one node, and known bits turn logic into
-wiring and make adders narrow. Order and numbers of nodes follow from the order of calls alone, so the same kernel
+Each node has one value of `width` bits. Operations that cost nothing in hardware are written as wiring (slice, cat,
+sext). Nodes are simplified as they are made: constants are folded, equal nodes are one node, and known bits turn logic
+into wiring and make adders narrow. Order and numbers of nodes follow from the order of calls alone, so the same kernel
 always gives the same graph.
 """
 
@@ -469,7 +469,7 @@ class Graph:
 
 
 def live(outputs: Iterable[Node]) -> list[Node]:
-    """What outputs depend on, operands first, in the order of numbers."""
+    """The nodes that outputs depend on, operands first, in the order of numbers."""
     seen: set[int] = set()
     found: list[Node] = []
     stack = list(outputs)

@@ -85,7 +85,7 @@ class Vectors:
         return objects
 
     def _ways(self, module: Module) -> tuple[list, list]:
-        """What Verilator and the compiler are told: a pipeline is a model of its own, the blender stands in a bench."""
+        """Options of Verilator and of the compiler: a pipeline is a model of its own, the blender stands in a bench."""
         if not module.name.startswith(BLEND):
             ports = "".join(part.capitalize() for part in module.name.removeprefix("hls_").split("_")) + "Ports"
             stages = re.search(r"^// Latency: (\d+) clock", "\n".join(module.lines), re.M)[1]
@@ -156,7 +156,7 @@ def try_by_proof(module: Module, mutants: list[Mutant]) -> Verdicts:
         path.write_text(module.with_mutants(mutants, has_port=False))
         read = _run(["bash", PROOFS, "--script", module.name, path], "proofs.sh")
         script = [read.replace("opt -full", "setundef -undriven -expose; opt -full")]
-        # What has a register is proved by induction, as in proofs.sh.
+        # A module with a register is proved by induction, as in proofs.sh.
         way = "-tempinduct " if "compare_cell" in module.name else ""
         for number in [0, *(m.number for m in mutants)]:
             script += [f"log mutant {number}:", f"sat {way}-prove-asserts -set dut.mutant_i {number} proof"]

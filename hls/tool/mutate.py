@@ -25,7 +25,7 @@ _RANGE = re.compile(r"\b(\w+)\[(\d+)(?::(\d+))?\]")
 _SIGNS = re.compile(r"\{(\d+)\{([^{}]+)\}\}")
 _CHOICE = re.compile(r"^(.*) \? (.*) : (.*)$")
 
-# What takes an operator's place.
+# Operators that take an operator's place.
 _OPERATORS = {
     " + ": (" - ", " | "),
     " - ": (" + ",),

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a person did wrong, told in one line."""
+"""An error of the user, in one line."""
 
 
 class Trouble(Exception):

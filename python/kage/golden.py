@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """The golden core, by libkage_golden (ref/include/kage/golden.h has the contract of each function).
 
-The library is looked for in $KAGE_GOLDEN, beside this file (`pip install ./python` puts it there where the source tree has
-been built), in the build/release/lib of the source tree that it lies in or was installed from, and where the system looks
-for libraries.
+The library is the file that $KAGE_GOLDEN names, if that is set. Else it is looked for beside this file, where `pip install
+./python` puts it if the source tree has been built. Then it is looked for in build/release/lib of the source tree that this
+file lies in or was installed from, and last where the system looks for libraries.
 """
 
 from __future__ import annotations
@@ -23,13 +23,13 @@ ABI = 1
 _HERE = pathlib.Path(__file__).resolve().parent
 _TAKER = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_int, ctypes.POINTER(ctypes.c_ubyte), ctypes.c_int)
 
-# What kage_golden_word() returns, and kage_golden_pixel() in place of a value.
+# Results of kage_golden_word(), and those of kage_golden_pixel() that stand for no value.
 _ERROR, _TOKEN, _END, _FAILED = -1, 1, 2, 3
 _ABSENT, _ANY = -1, -2
 
 
 class GoldenError(Exception):
-    """What the golden core could not do, in one line."""
+    """The golden core refused a call; the text says why, in one line."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -53,8 +53,8 @@ class Status:
 
 @dataclasses.dataclass(frozen=True)
 class Frame:
-    """What a frame draws. `lines` has a bytes a line, CHANNELS a pixel, channel 0 first, 0 .. 255; a frame whose header is
-    refused has none. After an error the lines that had not ended are background."""
+    """The pixels of a frame. `lines` has a bytes object for each line, CHANNELS bytes a pixel, channel 0 first, 0 .. 255; it
+    is empty if the header is refused. After an error the lines that had not ended are background."""
 
     width: int
     height: int

@@ -339,12 +339,12 @@ class Config:
 
     @classmethod
     def read(cls, conf):
-        """That of a file's section CONF, or of such lines: PARAMETER: value."""
+        """The configuration of a file's section CONF, or of such lines: PARAMETER: value."""
         text = conf.decode() if isinstance(conf, bytes) else conf
         return cls(**{name.strip(): int(value) for name, value in (line.split(":") for line in text.splitlines())})
 
     def faults(self):
-        """What is wrong with it: nothing in a legal configuration."""
+        """The faults of the configuration, as texts: none if it is legal."""
         found = []
         for name, (_, least, most, values, _, _) in PARAMETERS.items():
             value = getattr(self, name)
@@ -353,7 +353,7 @@ class Config:
         return found + [text for text, holds in RULES if not holds(self)]
 
     def hash(self):
-        """What a frame's header has as param_hash."""
+        """The param_hash that a frame's header has for the configuration."""
         h = 2166136261
         for name, (_, _, _, _, affects_pixels, _) in PARAMETERS.items():
             if affects_pixels:
@@ -474,7 +474,7 @@ class Codec:
                 return
 
     def text(self, token):
-        """What a token says of itself, as the program has it."""
+        """A token's text, as the program prints it."""
         text = ""
         for piece in TEXTS[token["kind"]]:
             if isinstance(piece, str):

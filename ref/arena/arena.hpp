@@ -46,9 +46,8 @@ class Arena {
   }
 
  private:
-  /// oneTBB has as many threads as there are processors unless it is told otherwise, and writes a warning where an
-  /// arena asks for more. Of several such orders the least counts, so there is one, of the most that was ever asked
-  /// for.
+  /// Lets oneTBB run `threads` threads. Its default limit is the number of processors, and it writes a warning where an
+  /// arena asks for more. The least of several limits counts, so there is only one here, and it only rises.
   static void allow(std::size_t threads) {
     static std::mutex mutex;
     static std::size_t allowed = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What oneTBB orders, for the sanitizer of threads: what a thread has done before it hands work on is seen by the
-// thread that takes it. The library is not built with the sanitizer, which therefore has to be told; elsewhere this
-// does nothing.
+// Annotations for the thread sanitizer: a thread that takes work from oneTBB sees all that the giving thread did
+// before. oneTBB is not built with the sanitizer, so the sanitizer cannot find this order itself. Without the sanitizer
+// these functions do nothing.
 #pragma once
 
 #if defined(__SANITIZE_THREAD__)

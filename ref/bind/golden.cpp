@@ -28,7 +28,7 @@ namespace {
 
 thread_local std::string creation_error;
 
-/// What `work` returns, or `failure` with the cause in `error`.
+/// Returns work()'s result; after an exception, `failure` with the cause in `error`.
 template <class Result, class Work>
 Result guarded(std::string& error, Result failure, Work&& work) noexcept {
   try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a handle of the C interface holds: a core, and what it has told of the frame at hand.
+// State behind a handle of the C interface: a core, and what its observer has seen of the current frame.
 #pragma once
 
 #include <optional>

@@ -198,7 +198,7 @@ std::string to_yaml(const Config& config) {
 
 namespace {
 
-/// Of any core.
+/// The largest LIGHTS that any configuration can have.
 int most_lights() {
   for (const ParamInfo& p : kParams)
     if (p.member == &Config::lights) return p.max;

@@ -10,7 +10,7 @@
 
 namespace kage {
 
-/// What tokens of a kind have, for those that sort or count them.
+/// Properties of a kind of token, for code that sorts or counts tokens.
 struct KindInfo {
   bool state = false;        ///< part of the frame's state: it stands there and nowhere else
   bool span = false;         ///< counts as a span

@@ -35,7 +35,7 @@ constexpr Marks marks_of(const Config& c) {
   return static_cast<Marks>((c.units > 0 ? kTree : 0) | (c.dsf_bits > 0 ? kShade : 0) | (c.fsf > 0 ? kVolume : 0) | (c.count_bits > 0 ? kSample : 0));
 }
 
-/// What a kind asks for and what it leads to.
+/// Where a kind may stand, and how it changes phase and marks.
 struct Rule {
   std::uint8_t in = 0;  ///< bit p: it may stand in phase p
   Marks with = 0;       ///< these must be set
@@ -83,7 +83,7 @@ inline constexpr std::array<Rule, kKinds> kRules{{
     {},
 }};
 
-/// What a phase is where these marks are set.
+/// The phase that is entered in place of `phase` with these marks.
 constexpr Phase entered(Phase phase, [[maybe_unused]] Marks marks) {
   if (phase == Phase::ahead && (marks & kTree) == 0) return Phase::opaque;
   return phase;

@@ -44,7 +44,7 @@ class TokenRules {
     return ErrorCode::NONE;
   }
 
-  /// What became of the last SEG.
+  /// Outcome of the last SEG.
   [[nodiscard]] const SegmentRules::Outcome& outcome() const { return outcome_; }
 
   /// The fault that the last TREE raised; its code is NONE if it raised none.

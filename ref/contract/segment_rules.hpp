@@ -15,15 +15,15 @@ namespace kage {
 
 class SegmentRules {
  public:
-  /// What is wrong with a unit.
+  /// A unit's fault.
   struct Fault {
     ErrorCode code = ErrorCode::NONE;
     std::uint32_t unit = 0;
     std::uint32_t token = 0;  ///< index of the token that shows it
   };
 
-  /// What becomes of a SEG: an error at once, a fault to be raised at its line's TREE, or nothing; its unit takes it
-  /// only if it is taken.
+  /// Outcome of a SEG: an error at once, a fault that is raised at its line's TREE, or neither. Its unit gets it only
+  /// if `taken` is set.
   struct Outcome {
     ErrorCode error = ErrorCode::NONE;
     ErrorCode fault = ErrorCode::NONE;

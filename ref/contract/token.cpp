@@ -128,7 +128,7 @@ void TokenWriter::pack(const T& t) {
 
 namespace {
 
-// What pack() is given in place of a whole Token.
+// Arguments of pack(), in place of a whole Token: only the fields that a kind has.
 struct OfSpan {
   const SpanToken& span;
 };

@@ -31,7 +31,7 @@ struct GoldenCore::Data {
   TokenWriter writer;  // of what the front end makes, for the observer
   CoreObserver* observer = nullptr;
 
-  // Of the frame at hand:
+  // State of the current frame:
   FrameStatus status;
   At at = At::header;
   std::uint32_t number = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of the golden core a LineView looks at.
+// The parts of the golden core that a LineView reads.
 #pragma once
 
 #include "contract/rules.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an observer of the golden core sees of the line at hand.
+// The current line, as an observer of the golden core sees it.
 #include "core/line_parts.hpp"
 #include "number/packed_color.hpp"
 

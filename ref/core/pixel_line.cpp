@@ -125,7 +125,7 @@ void PixelLine::clear_counts() {
   for (auto& counts : counts_) std::fill(counts.begin(), counts.end(), 0U);
 }
 
-// What a pixel keeps of a channel, in 2^-SHADE_FRAC.
+// Share of its colour that a pixel keeps in a channel, in steps of 2^-SHADE_FRAC.
 std::uint32_t PixelLine::factor(std::size_t x, std::size_t channel) const {
   const std::uint32_t one = derived::whole_share(config_);
   std::uint32_t lost = 0;
@@ -194,7 +194,7 @@ PixelState PixelLine::state(int x) const {
   PixelState s;
   s.z = static_cast<std::uint32_t>(zb_[i]);
   const bool clear = zb_[i] == clear_depth(config_);
-  // What a clear pixel's colour and class were on lines before is never seen.
+  // A clear pixel's colour and class may be left from earlier lines, so they are never shown.
   if (!clear || painted_) s.color = unpacked_color(attr_[i], config_.channels);
   if (!clear) s.normal_class = class_.empty() ? (attr_[i] & kLit) / kLit : class_[i];
   s.dsf = dsf_[i] & dsf_mask_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a span brings to one of its pixels, straight from the definition (docs/stream.md): for those who look at single
-// pixels. The kernels step instead.
+// A span's depth and colour at one pixel, straight from the definition (docs/stream.md), for code that looks at single
+// pixels. The kernels step from pixel to pixel instead.
 #pragma once
 
 #include <algorithm>

@@ -29,13 +29,13 @@ double token_bits(const Config& c) {
   return 32.0 * whole(*std::max_element(layout.words.begin(), layout.words.end()));
 }
 
-/// Of an expansion unit's segment buffer.
+/// Bits of an entry of an expansion unit's segment buffer.
 int segment_bits(const Config& c) { return derived::segment_depth_bits(c) + c.dx_bits + c.face_bits; }
 
 }  // namespace
 
-// The parts of the RTL that grow with the parameters: fixed control, the port, the token and its check, the command
-// with depth and colour, the lanes, the way out, the table, the units and their tree.
+// Terms for the parts of the RTL, in this order. Fixed control, the port, the token and its check, the command with
+// depth and colour. Then the lanes, the way out, the table, the units and their tree.
 const std::array<CellTerm, kCellTerms> kCellTermInfo{{
     {"one", [](const Config&) { return 1.0; }},
     {"beat_words", [](const Config& c) { return whole(c.beat_words); }},

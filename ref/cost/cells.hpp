@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a core takes of an FPGA: RAM and bits of a pixel's state exactly, by its parameters; look-up tables and
-// flip-flops by a linear fit to what yosys counts, because synthesis takes a minute and a plan compares hundreds of
-// cores. `tools/area` measures, fits and states how far the fit is off; kage area says both for one core.
+// A core's area on an FPGA. RAM and the bits of a pixel's state follow exactly from the parameters. Look-up tables and
+// flip-flops are a linear fit to what yosys counts: synthesis takes a minute, and a plan compares hundreds of cores.
+// `tools/area` measures, fits and states how far the fit is off; kage area says both for one core.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@
 
 namespace kage {
 
-/// Of one core.
+/// Area of one core.
 struct Cells {
   double luts = 0;             ///< look-up tables of four inputs on an ECP5, carry chains and LUT RAM in them
   double flip_flops = 0;       ///< of the whole core
@@ -33,7 +33,7 @@ struct CellSpread {
 };
 CellSpread cell_spread(const Config& config);
 
-/// What a fit is a sum of: that of the core behind the front end, and that of the front end, where there is one.
+/// A term of a fit's sum. The core behind the front end has one fit; the front end, where there is one, has another.
 struct CellTerm {
   std::string_view name;
   double (*value)(const Config&);

@@ -40,31 +40,31 @@ struct LineClocks {
   std::uint64_t worst_frame = 0;  ///< clocks of the frame with the most
   Need need;                      ///< needed_line() of the frame that asks for most, or its width if that is more
 
-  /// Of a line, over all frames; 0 without lines.
+  /// Mean clocks of a line, over all frames; 0 without lines.
   [[nodiscard]] double mean() const {
     return lines == 0 ? 0 : static_cast<double>(clocks) / static_cast<double>(lines);
   }
 };
 
-/// What a run of lines takes beyond the clocks of its tokens and passes, once: from the clock in which a buffer of the
-/// way out is free to its line's first pixel at the port. rtl/core_display finds up to 2.
+/// Clocks that a run of lines takes once, beyond those of its tokens and passes. They lie between the clock in which a
+/// buffer of the way out is free and its line's first pixel at the port. rtl/core_display finds up to 2.
 inline constexpr double kWayOutClocks = 8;
 
 /// The least clocks T that a line of a display must have, so that a core which takes `lines` clocks for its lines is
 /// never late. The way out holds two lines (docs/rtl.md): while one leaves and one waits, the core works on the next.
 /// So m neighbouring lines have the time of m + 1 lines of the display, and T is the most of
-/// (sum + kWayOutClocks) / (m + 1) over all runs of neighbours in a frame. Runs do not go on into the next frame where
-/// the display has a blank line between them: m lines at a frame's end and n at the next one's begin take up to
-/// (m + 1) T and (n + 1) T, less kWayOutClocks each, and have the time of their m + n + 1 lines and the blank one.
-/// Without a blank line the core may be late by what both take. A line whose colours come back before its TPs leaves
-/// the way out only once the line before has left: for such frames the two lines are those of a FIFO behind the core,
-/// as video_out has one (docs/video.md).
+/// (sum + kWayOutClocks) / (m + 1) over all runs of neighbours in a frame. Runs end with the frame if the display has a
+/// blank line between frames. There m lines at a frame's end take up to (m + 1) T less kWayOutClocks, and n lines at
+/// the next one's begin up to (n + 1) T less kWayOutClocks. They have the time of m + n + 1 lines and the blank one.
+/// Without a blank line the core may be late by what both take. Where a line's colours come back before its TPs, the
+/// line leaves the way out only once the line before has left. For such frames the two lines are those of a FIFO
+/// behind the core, as video_out has one (docs/video.md).
 /// @param lines clocks of each line of a frame, top to bottom
 /// @return T, and the lines that decide it; 0 without lines
 LineClocks::Need needed_line(std::span<const std::uint64_t> lines);
 
-/// Adds frames up, for a core of one configuration. Of a frame at the polygon level the clocks are those of the core
-/// behind the front end: of the tokens that it makes or hands on.
+/// Adds frames up, for a core of one configuration. For a frame at the polygon level it counts the clocks of the core
+/// behind the front end: those of the tokens that the front end makes or hands on.
 class LineClockCounter {
  public:
   explicit LineClockCounter(const Config& config)

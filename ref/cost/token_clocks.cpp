@@ -11,7 +11,7 @@ void PhaseCounter::token(const Token& t) {
   const auto words = static_cast<std::uint64_t>(layout_.words[static_cast<std::size_t>(t.kind)]);
   const auto beat = static_cast<std::uint64_t>(config_.beat_words);
   std::uint64_t clocks = std::max<std::uint64_t>(1, (words + beat - 1) / beat);
-  // What the banked arrangement works on in turn; in the systolic one a token enters every clock.
+  // Groups of lanes, which the banked arrangement works on in turn; in the systolic one a token enters every clock.
   const auto groups = [&](int xl, int xr) {
     return static_cast<std::uint64_t>(
         config_.arrangement == 0 || xl == xr ? 1 : (xr - 1) / config_.lanes - xl / config_.lanes + 1);

@@ -13,7 +13,7 @@
 
 namespace kage {
 
-/// What passes in the banked core from the last pixel of a tree's line to the first of its next (docs/tree.md, "The
+/// Clocks in the banked core between the last pixel of a tree's line and the first of its next line (docs/tree.md, "The
 /// clocks of a line").
 inline constexpr int kBetweenTreeLines = 4;
 
@@ -56,9 +56,9 @@ class PhaseCounter {
   [[nodiscard]] const PhaseSums& sums() const { return sums_; }
 
   /// The clocks that each line takes at most, top to bottom: those of its tokens, or of its pixels on their way out if
-  /// these take longer. Those before a line's first TP count too: the pass that paints the line, and with counters the
-  /// way out and back of its colours; and those in which a TREE waits for the tree, which makes a pixel a clock, a line
-  /// ahead.
+  /// these take longer. The wait before a line's first TP counts too: the pass that paints the line, and with counters
+  /// the way out and back of its colours. So does a TREE's wait for the tree, which works a line ahead, a pixel a
+  /// clock.
   [[nodiscard]] const std::vector<std::uint64_t>& lines() const { return lines_; }
 
  private:
@@ -68,18 +68,19 @@ class PhaseCounter {
   std::uint64_t line_ = 0;  // clocks of the line at hand
   PhaseSums sums_;
   std::vector<std::uint64_t> lines_;
-  // Of the line at hand:
+  // State of the current line:
   bool resolved_ = false;       // it has had a RESOLVE
   bool blends_ = false;         // it has had a TP
   std::uint64_t waits_ = 0;     // clocks before its first TP, and before its TREE
   bool tree_here_ = false;      // it has had a TREE
   std::uint64_t segments_ = 0;  // clocks of its SEGs
-  // Of the frame:
+  // State of the frame:
   bool had_tree_ = false;         // there was a TREE
   std::uint64_t since_tree_ = 0;  // clocks since the last one began
 };
 
-/// The most clocks that `count` neighbouring lines of a frame take together. Of a frame with fewer lines: all of them.
+/// The most clocks that `count` neighbouring lines of a frame take together; in a frame with fewer lines, the clocks of
+/// all.
 std::uint64_t worst_window(std::span<const std::uint64_t> lines, std::size_t count);
 
 }  // namespace kage

@@ -68,8 +68,9 @@ bool is_ours(int lock, const fs::path& folder) {
 bool write_mark(int lock) { return write(lock, kMark.data(), kMark.size()) == static_cast<ssize_t>(kMark.size()); }
 
 /// Makes the lock of `folder`, taken and with its mark, in one step: its file gets its name last. So a process that is
-/// killed leaves an empty folder or one that git ignores. -1: this file system or machine has no files without names.
-/// -2, errno is set: the folder is gone, since a sweep found it empty, or the disk is full.
+/// killed leaves an empty folder or one that git ignores. Returns the lock.
+/// Returns -1 where this file system or machine has no files without names.
+/// Returns -2 with errno set where the folder is gone, since a sweep found it empty, or the disk is full.
 int make_lock_at_once(const fs::path& folder) {
   const int lock = open(folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0666);
   if (lock < 0) return -1;

@@ -6,8 +6,8 @@
 
 namespace kage {
 
-/// A folder for what a run writes, made with those above it. What was made and is empty in the end is removed again, so
-/// that a run that fails leaves nothing.
+/// A folder for a run's output, made with the folders above it. The destructor removes the made folders that are still
+/// empty, so that a run that fails leaves nothing.
 class OutFolder {
  public:
   /// Throws Error if the folder cannot be made or written to.

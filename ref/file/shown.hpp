@@ -10,8 +10,8 @@ namespace kage {
 /// `text` as a shell reads it back.
 std::string quoted(const std::string& text);
 
-/// A name or a sentence from elsewhere, for a line that a person reads: where control characters are in it, they are
-/// gone, since a line break would begin a line of its own, which may be a command to whoever reads the output.
+/// A name or a sentence from elsewhere, for a line that a person reads: without its control characters. A line break
+/// in it would begin a line of its own, which may be a command to whatever reads the output.
 std::string shown(const std::string& text);
 
 }  // namespace kage

@@ -23,7 +23,7 @@
 
 namespace kage {
 
-/// What all bands share.
+/// Data of a frame that all bands share.
 struct FramePlan {
   const FrameGeometry* geometry;
   const Config* config;
@@ -38,7 +38,7 @@ struct FramePlan {
   std::optional<PolygonPlan> plan;  // at the polygon level
 };
 
-/// What a band touches.
+/// Numbers of the polygons, faces, edges and fragments that touch a band.
 struct BandWork {
   std::vector<std::uint32_t> polygons;
   std::vector<std::uint32_t> faces;
@@ -59,7 +59,7 @@ class Band {
         writer_(*frame.config, words_),
         spans_(*frame.geometry, *frame.config) {}
 
-  /// What the next band touches, to be filled in before make().
+  /// The next band's work, to be filled in before make().
   BandWork& work() { return work_; }
   [[nodiscard]] std::span<const std::uint32_t> words() const { return words_; }
 
@@ -149,7 +149,7 @@ class Band {
 
   Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
 
-  /// What a polygon is in one of its roles: where its tokens go, and what all of them have.
+  /// A polygon in one of its roles: where its tokens go, and the values that all of them have.
   struct Role {
     PolygonWay way;
     Place place;
@@ -159,7 +159,7 @@ class Band {
 
   [[nodiscard]] bool made(PolygonWay way) const { return plan_ != nullptr && way == PolygonWay::polygon; }
 
-  /// Of a drawn polygon, opaque or translucent; use() is asked at the polygon level.
+  /// The role of a drawn polygon, opaque or translucent; use() is called at the polygon level only.
   template <class Use>
   Role drawn_role(const ScreenPolygon& p, Layer layer, Use use) const {
     const bool opaque = layer == Layer::opaque;
@@ -174,7 +174,7 @@ class Band {
     return role;
   }
 
-  /// What comes next on a line has this place.
+  /// Gives the next tokens of a line this place: writes an AT unless the line is there already.
   void go_to(Line& line, const Place& place) {
     if (line.place == place) return;
     line.place = place;

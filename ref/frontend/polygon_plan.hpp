@@ -22,7 +22,7 @@ inline constexpr int kTallLines = 3;
 
 class Prices;
 
-/// Of a frame at the polygon level.
+/// Plan of a frame at the polygon level: which way each polygon goes in each of its roles.
 class PolygonPlan {
  public:
   /// A polygon in one of its roles: drawn, face of a volume, or of a translucent fragment.
@@ -75,7 +75,7 @@ class PolygonPlan {
   const FrameGeometry* g_;
   std::uint32_t first_opaque_;
   std::vector<PolygonShape> shapes_;
-  // Of uses: first the drawn ones, then faces of volumes, then those of fragments.
+  // By number of the use: first drawn polygons, then faces of volumes, then polygons of fragments.
   std::vector<PolygonWay> ways_;
   std::vector<std::uint32_t> before_;
   std::size_t first_face_ = 0;

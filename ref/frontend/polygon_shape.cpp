@@ -17,7 +17,7 @@ PolygonToken plane_token(const ScreenPlane& plane, int first, int bits) {
   return t;
 }
 
-/// What the words of 16 bits hold is enough to say that spans are fewer.
+/// `v`, or the most that 16 bits hold: that many words already say that spans take fewer.
 std::uint16_t at_most(std::size_t v) {
   return static_cast<std::uint16_t>(std::min<std::size_t>(v, std::numeric_limits<std::uint16_t>::max()));
 }

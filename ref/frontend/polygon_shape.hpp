@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A polygon as the front end takes it (docs/stream.md, "The polygon level"): its planes at the line where it begins,
-// its edges where they begin, and whether the front end makes the very spans of it that scan conversion makes.
+// A polygon as the front end takes it (docs/stream.md, "The polygon level"): its planes at its first line, and each
+// edge at the line where that edge begins. Also says whether the front end makes exactly the spans of scan conversion.
 #pragma once
 
 #include <algorithm>

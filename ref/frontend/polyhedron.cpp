@@ -111,8 +111,8 @@ std::int64_t PolyhedronScanner::depth(const Part& p, int x) const {
   return std::clamp(z, std::int64_t{1}, most_depth_);
 }
 
-// Of overlapping parts, which only the snap can make, each pixel goes to the least (Z, polygon), as spans would have
-// it.
+// Where parts overlap, which only the snap can cause, each pixel goes to the part with the least (Z, polygon), as with
+// spans.
 void PolyhedronScanner::settle() {
   std::sort(parts_.begin(), parts_.end(),
             [](const Part& a, const Part& b) { return a.xl != b.xl ? a.xl < b.xl : a.polygon < b.polygon; });

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Scan conversion of convex polyhedra to runs of one face. [Ohno 1985: from vertex interval to vertex interval, links
-// sorted by x, by increments from line to line.] Each edge is walked once for both of its faces, with the walking, the
-// half-open rule and the ramps that spans have, so a polyhedron gives the same bits either way.
+// Scan conversion of convex polyhedra to runs of one face [Ohno 1985: from vertex interval to vertex interval, links
+// sorted by x, by increments from line to line]. Each edge is walked once for both of its faces. Walking, half-open
+// rule and ramps are those of spans, so a polyhedron gives the same bits either way.
 #pragma once
 
 #include <algorithm>

@@ -86,9 +86,9 @@ class SpanSetup {
 
  private:
   // Whether 64 bits hold all of a span's sums, as they do for planes that are not very steep. Pixels of a picture and
-  // anchors lie within +-2^15, so x - x0 and y - y0 within 2^16 and c + a (x - x0) + b (y - y0) within 3 * 2^60; the
-  // halves that are added to it are at most 2^23. After rounding, a start in range (2^(bits - 1) <= 2^49) and 2^15
-  // steps of at most 2^44 + 1 stay below 2^60.
+  // anchors lie within +-2^15. So x - x0 and y - y0 lie within 2^16, and c + a (x - x0) + b (y - y0) within 3 * 2^60.
+  // The halves that are added to it are at most 2^23. After rounding, a start in range (2^(bits - 1) <= 2^49) and
+  // 2^15 steps of at most 2^44 + 1 stay below 2^60.
   [[nodiscard]] static bool is_narrow(const ScreenPlane& p) {
     const auto within = [](std::int64_t v, int log) {
       return static_cast<std::uint64_t>(v) + (std::uint64_t{1} << log) <= std::uint64_t{2} << log;

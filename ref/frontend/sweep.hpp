@@ -15,8 +15,8 @@ namespace kage {
 /// Lines of a band, what is scanned in one piece.
 inline constexpr int kBandLines = 16;
 
-/// What each band of lines touches, in the order of their numbers, band after band from the top. Every thing is held
-/// once, however many bands it touches.
+/// The items that touch each band of lines, in the order of their numbers, band after band from the top. Each item is
+/// held once, however many bands it touches.
 class Sweep {
  public:
   Sweep(int bands, int height, std::span<const LineRange> ranges)
@@ -38,7 +38,7 @@ class Sweep {
     });
   }
 
-  /// What the next band touches.
+  /// Numbers of the items that touch the next band.
   const std::vector<std::uint32_t>& next() {
     std::erase_if(active_, [this](std::uint32_t i) { return end_band_[i] <= band_; });
     const auto b = static_cast<std::size_t>(band_++);
@@ -50,7 +50,7 @@ class Sweep {
   }
 
  private:
-  std::vector<std::size_t> start_;    // in items_, by the band in which things begin
+  std::vector<std::size_t> start_;    // in items_, by the band in which items begin
   std::vector<std::uint32_t> items_;  // by first band, then by number
   std::vector<int> end_band_;
   std::vector<std::uint32_t> active_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What of a frame goes to the compare tree: units, face numbers, and the segments of each line.
+// The part of a frame that goes to the compare tree: units, face numbers, and the segments of each line.
 #pragma once
 
 #include <cstdint>

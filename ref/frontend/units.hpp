@@ -15,7 +15,7 @@
 
 namespace kage {
 
-/// What a polyhedron asks of a unit.
+/// Room that a polyhedron needs in a unit.
 struct UnitNeed {
   int first = 0;  ///< lines [first, end)
   int end = 0;
@@ -25,7 +25,7 @@ struct UnitNeed {
   int segments = 0;  ///< most on a line, with blank ones between them
 };
 
-/// What there is.
+/// Room that the units of a core have.
 struct UnitRoom {
   int units = 0;
   int faces = 0;     ///< of a unit's table

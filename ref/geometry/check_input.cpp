@@ -13,8 +13,8 @@
 namespace kage {
 namespace {
 
-// Of the light's distance to the scene by that's size: further off, a shadow's sides stray from where they should be by
-// more than 2^-12 of the scene.
+// Largest ratio of a light's distance from the scene to the scene's size. With a light further off, a shadow's sides
+// are more than 2^-12 of the scene away from their true place.
 constexpr double kFurthestLight = 0x1p40;
 
 void check_light(const Light& l, std::size_t number, const SpaceBox& scene) {

@@ -80,7 +80,7 @@ void clip_plane(std::vector<ClipPoint>& polygon, std::vector<ClipPoint>& buffer,
   polygon.swap(buffer);
 }
 
-// What of the edge a-b is inside; false if nothing.
+// Cuts the edge a-b down to its part inside; false if no part is.
 bool clip_edge(ClipPoint& a, ClipPoint& b, GuardSide side) {
   const bool a_in = guard_distance(a, side) >= 0;
   const bool b_in = guard_distance(b, side) >= 0;

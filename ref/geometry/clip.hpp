@@ -29,9 +29,9 @@ class Clipper {
   /// Whether clipping leaves this vertex alone.
   [[nodiscard]] bool keeps(const ClipPoint& p) const;
 
-  /// The pieces of a near cut as snapped edges, appended to `edges` in reverse direction (a section closes what the
-  /// polygons leave open): cut in y as the polygon is, but in x outside the guard band only moved onto it, so that what
-  /// lies left of the screen still counts. `w`: their weight.
+  /// Appends the pieces of a near cut to `edges` as snapped edges, in reverse direction: the section closes what the
+  /// polygons leave open. In y they are cut as the polygon is. In x pieces outside the guard band are only moved onto
+  /// its border, so that pieces left of the screen still count. `w`: their weight.
   void snap_cut(const NearCut& cut, std::int32_t w, std::vector<NearEdge>& edges) const;
 
  private:

@@ -67,8 +67,9 @@ void FaceDrawer::undo(std::uint32_t index) {
 }
 
 // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one depth
-// plane. An outline that the snap has bent so far that no fan is without overlaps is drawn whole, with the colours of
-// its largest triangle: each pixel once comes before the colours of what is a few steps of the snap wide.
+// plane. The snap may bend an outline so far that every fan of it has overlaps. Such an outline is drawn whole, with
+// the colours of its largest triangle: it is only a few steps of the snap wide, and drawing each pixel once matters
+// more than its colours.
 void FaceDrawer::add_fan(const ScreenPolygon& base) {
   const std::size_t n = polygon_.size();
   faces_.snap_outline(polygon_, snapped_);

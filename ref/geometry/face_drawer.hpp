@@ -48,7 +48,7 @@ class FaceDrawer {
   ScreenFaces faces_;
   FramePoints points_;
   std::vector<DrawnRange> drawn_;
-  // Of the face being drawn:
+  // Outline of the face being drawn:
   std::vector<ClipPoint> polygon_;
   std::vector<ScreenVertex> snapped_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light makes of a face: the colours of its corners, and whether shadows darken it.
+// A face's shading: the colours of its corners, and whether shadows darken it.
 #pragma once
 
 #include <bitset>
@@ -43,7 +43,7 @@ class FaceShading {
   void classify(LightTable& table, std::span<ScreenPolygon> polygons) const;
 
  private:
-  /// What the light table asks of a face.
+  /// Data of a face for the light table.
   struct LitFace {
     glm::dvec3 normal;
     glm::dvec3 middle;

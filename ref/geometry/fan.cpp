@@ -4,7 +4,7 @@
 namespace kage {
 namespace {
 
-/// Of corners on a line with `from`: they lie on the same side of it.
+/// Whether two corners, on one line with `from`, lie on the same side of it.
 bool same_side(const ScreenVertex& from, const ScreenVertex& a, const ScreenVertex& b) {
   return (std::int64_t{a.x} - from.x) * (std::int64_t{b.x} - from.x) +
              (std::int64_t{a.y} - from.y) * (std::int64_t{b.y} - from.y) >

@@ -26,7 +26,7 @@
 namespace kage {
 namespace {
 
-// What a frame is made of, and how.
+// Input of a frame's geometry: the scene's frame, the configuration and the look.
 struct Task {
   const SceneFrame& frame;
   const Config& config;

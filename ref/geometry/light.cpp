@@ -31,7 +31,7 @@ constexpr auto kBallTurn = static_cast<std::uint64_t>(0.29 * 0x1p64);
 constexpr auto kBallHalfTurn = static_cast<std::uint64_t>(0.187 * 0x1p64);
 constexpr auto kBallStart = static_cast<std::uint64_t>(0.99 * 0x1p64);
 
-/// Of each number its place in the order of all, from 0. No two may be equal.
+/// Rank of each number among all, from 0. No two may be equal.
 std::vector<int> places(const std::vector<std::uint64_t>& numbers) {
   std::vector<std::uint64_t> sorted = numbers;
   std::sort(sorted.begin(), sorted.end());
@@ -41,8 +41,8 @@ std::vector<int> places(const std::vector<std::uint64_t>& numbers) {
   return places;
 }
 
-// From the light's middle to each of its samples. Of every shape, `middle(i)` is the middle of the i-th of equal shares
-// of 0 .. 1.
+// Offsets from the light's middle to each of its samples, one function for each shape. `middle(i)` is the middle of the
+// i-th of `samples` equal parts of 0 .. 1.
 
 template <class Middle>
 std::vector<glm::dvec3> on_disc(const Light& light, int samples, std::uint64_t start, const Middle& middle) {
@@ -67,10 +67,11 @@ std::vector<glm::dvec3> on_rectangle(const Light& light, int samples, std::uint6
   return offsets;
 }
 
-// From wherever it is seen, a ball is a disc. The density within the unit ball whose projection is even over the disc,
-// in every direction, is 1 / (pi^2 sqrt(1 - r^2)) (docs/lights.md has why). The unit sphere of four dimensions, seen in
-// three, has just that density; and its points are (sqrt(u) (cos a, sin a), sqrt(1 - u) (cos b, sin b)) with u, a and b
-// even over 0 .. 1 and a turn each. Left out of the four is sin b, so half a turn of b is all of it.
+// Seen from any direction, a ball is a disc. The density within the unit ball whose projection is even over the disc,
+// in every direction, is 1 / (pi^2 sqrt(1 - r^2)) (docs/lights.md has why). The unit sphere of four dimensions,
+// projected to three, has just that density. Its points are
+//   (sqrt(u) (cos a, sin a), sqrt(1 - u) (cos b, sin b)), u even over 0 .. 1, a and b each over a turn.
+// The projection leaves out the fourth coordinate, with sin b, so half a turn of b is all of it.
 template <class Middle>
 std::vector<glm::dvec3> in_ball(const Light& light, int samples, std::uint64_t start, const Middle& middle) {
   std::vector<glm::dvec3> offsets;

@@ -19,9 +19,9 @@
 namespace kage {
 
 /// Puts faces in classes and says what each class loses in shadow. A class is a quantised normal and the lights that
-/// reach the face; only those that some face has get a number. What a surface gets of directional lights depends on its
-/// normal alone, so an entry is that of the class's normal. Of other lights it depends on the place too: then an entry
-/// is the mean, by area, over the faces that have the class.
+/// reach the face; only classes that some face has get a number. Light from directional lights depends on the surface's
+/// normal alone, so an entry is that of the class's normal. Light from other lights depends on the place too: then an
+/// entry is the mean, by area, over the faces that have the class.
 class LightTable {
  public:
   /// No table if the configuration has none. `samples`: of each light that casts shadows; the others have share 0.

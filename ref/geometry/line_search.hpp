@@ -13,8 +13,9 @@
 
 namespace kage {
 
-/// What of an outline lies on the wanted sides of lines, and a subpixel beyond them, as lines of pixels: more than the
-/// fragment's, never less. Every span of it lies within the outline, at a pixel's centre on the wanted sides.
+/// Lines of pixels of the part of an outline that lies on the wanted sides of cut lines, and up to a subpixel beyond
+/// them. They are never fewer than the fragment's: each of its spans lies within the outline, at pixel centres on the
+/// wanted sides.
 class LineSearch {
  public:
   void start(std::span<const ScreenVertex> outline) {

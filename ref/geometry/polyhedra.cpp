@@ -30,7 +30,7 @@ struct EdgeSide {
 
 }  // namespace
 
-// What is known before a face is drawn.
+// The reasons for spans that are known before a face is drawn.
 SpanReason PolyhedronDrawer::reason_of(const Component& part) const {
   if (part.translucent) return SpanReason::translucent;
   if (!part.closed) return SpanReason::not_closed;

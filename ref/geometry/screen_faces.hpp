@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What drawn faces and volumes have in common on their way to the screen: snapped outlines and depth planes.
+// Snapped outlines and depth planes, which drawn faces and volumes share on their way to the screen.
 #pragma once
 
 #include <cstdint>

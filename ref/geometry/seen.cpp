@@ -11,8 +11,8 @@
 namespace kage {
 namespace {
 
-// Share by which what is nearest is taken to be nearer than computed: 2^32 times the rounding of a double, so that no
-// face can be cut at w0 by a rounding, however far its vertices lie outside the picture.
+// Share by which the nearest distance is taken nearer than computed. It is 2^32 times the rounding of a double, so that
+// no rounding can cut a face at w0, however far its vertices lie outside the picture.
 constexpr double kNearer = 0x1p-20;
 // The far end lies this share past the furthest vertex, so that depth is finite where all lies at one distance.
 constexpr double kFurther = 1e-6;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What of a frame's faces the picture shows, and the distances that depth has to go over for it.
+// The parts of a frame's faces that the picture shows, and the range of distances that depth has to cover for them.
 #pragma once
 
 #include <cstdint>
@@ -20,8 +20,8 @@ class PictureCut {
  public:
   PictureCut(const Camera& camera, int width, int height);
 
-  /// What of a polygon lies in the picture and from distance `least` on: its corners, in eye space. Empty if nothing
-  /// does. `points`: what `outline` names.
+  /// Corners, in eye space, of the part of a polygon that lies in the picture at distance `least` or further. Empty if
+  /// there is none. `points`: the points that `outline` has the numbers of.
   std::span<const EyePoint> of(std::span<const std::uint32_t> outline, std::span<const EyePoint> points, double least);
 
  private:
@@ -35,17 +35,17 @@ class PictureCut {
   std::vector<EyePoint> buffer_;
 };
 
-/// Whether a polygon of the frame is a drawn face: Look::cull does not leave it out, and it is not a translucent one
-/// that blends nothing, of alpha 0 or (where translucent faces are blended) seen exactly edge-on.
+/// Whether a polygon of the frame is a drawn face. A face is not drawn if Look::cull leaves it out. Where translucent
+/// faces are blended, one that blends nothing is not drawn either: with alpha 0, or seen exactly edge-on.
 bool is_drawn(const SceneFrame& frame, const Config& config, const Look& look, std::uint32_t polygon);
 
 /// The distances that the frame's depth goes over (docs/numbers.md, "Depth"). `points`: the frame's, by eye_points().
 ///
-/// `near` is w0. With perspective it is the greatest power of two that is no more than the least distance of the drawn
-/// faces in the picture; in parallel view that distance rounded down to a multiple of the greatest power of two that is
-/// no more than what lies between it and the furthest vertex. In both it is at least the camera's near plane, and the
-/// near plane itself if the picture shows nothing or Look::depth_from_near is set. The distance is taken as 2^-20 of it
-/// (parallel: of what lies between) nearer than it is computed, which is more than all roundings on the way.
+/// `near` is w0. It depends on d, the least distance of the drawn faces in the picture. With perspective w0 is the
+/// greatest power of two that is no more than d. In parallel view it is d rounded down to a multiple of a power of two:
+/// the greatest that is no more than r, the way from d to the furthest vertex. In both, w0 is at least the camera's
+/// near plane, and the near plane itself if the picture shows nothing or Look::depth_from_near is set. Before all this
+/// d is made 2^-20 d (parallel: 2^-20 r) less than it is computed, which is more than all roundings on the way.
 DepthRange depth_range(const SceneFrame& frame, const Config& config, int width, int height, const Look& look,
                        std::span<const EyePoint> points);
 

@@ -37,8 +37,8 @@ class Lighting {
     return false;
   }
 
-  /// Share of its displayed colour that a white surface there loses where all of a light is kept out, of each light and
-  /// channel: of what it loses where all lights are, as much as the light gives of all that it gets directly.
+  /// For each light and channel, the share of its displayed colour that a white surface there loses in full shadow of
+  /// the light. It is a part of the loss in full shadow of all lights: the light's part of all direct light.
   [[nodiscard]] std::vector<glm::dvec3> shares(const glm::dvec3& point, const glm::dvec3& normal,
                                                const std::bitset<kMaxLights>& lit, bool grey) const;
 

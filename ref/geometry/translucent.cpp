@@ -75,7 +75,7 @@ Meeting meeting(const order::Picture& picture, const order::PlanePoints& face, c
   for (OrderPoint& q : p) q = scale(q);
   const order::FilterPlane planes[2] = {{p[0], p[1], p[2]}, {p[3], p[4], p[5]}};
   const std::array<OrderPoint, 3> axes{picture.right, picture.up, picture.forward};
-  // Of node and face: the normal along the axes, the eye's value, and the errors of both.
+  // For node and face: the normal along the axes, the eye's value, and the errors of both.
   std::array<glm::dvec3, 2> along, along_error;
   std::array<double, 2> at, at_error;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -116,11 +116,13 @@ order::PlanePoints plane_points(const std::array<glm::dvec3, 3>& p) { return {po
 }  // namespace
 
 // A point before the camera is eye + t (ex right + ey up + forward) (perspective) or eye + ex right + ey up + t forward
-// (parallel), ex and ey linear on the screen. On which side of the node's plane, n . (p - p0), the face's point at (ex,
-// ey) lies follows by putting in the t at which the face's plane m . (q - q0) = 0 is met. With dn = n . (eye - p0) and
-// dm likewise, and (nx, ny, nz), (mx, my, mz) the normals along the camera's axes, e = (ex, ey, 1):
-//   perspective: (dm (n . e) - dn (m . e)) / dm > 0 is the front, since m . e has the opposite sign of dm where t > 0;
-//   parallel: ((mz nx - nz mx) ex + (mz ny - nz my) ey + mz dn - nz dm) / mz > 0 is.
+// (parallel), ex and ey linear on the screen. A face's point at (ex, ey) has the t at which the face's plane
+// m . (q - q0) = 0 is met. That t, put into n . (p - p0), gives the side of the node's plane on which the point lies.
+// Let dn = n . (eye - p0) and dm likewise, (nx, ny, nz) and (mx, my, mz) the normals along the camera's axes, and
+// e = (ex, ey, 1). Then the front is where this is > 0 (in perspective, since m . e has dm's opposite sign where t >
+// 0):
+//   perspective:  (dm (n . e) - dn (m . e)) / dm
+//   parallel:     ((mz nx - nz mx) ex + (mz ny - nz my) ey + mz dn - nz dm) / mz.
 // The sign of dm, or mz, is that of the eye's exact side; the eye is before a face that looks against the view: mz < 0.
 //
 // The tree was cut where planes meet exactly, and its order holds for those cuts alone. So where doubles cannot tell

@@ -127,12 +127,12 @@ bool VolumeMaker::is_edge_on(const ScreenPlane& cap, const ScreenVertex& at, con
          std::abs(on_plane(cap, at).z - faces_.depth_vertex(corner).z) > std::int64_t{1} << kVertexFrac;
 }
 
-// Where a side, in polygon_ after clipping, leaves its cap: its vertices into ring_, from the edge that they share on,
-// and there with the cap's depths, so that at their common edge the side is never before the cap nor behind it. False
-// where clipping has changed the edge. `side_slope`: of the side's unsnapped plane.
-// A cap steeper than the side is further off its own corners there than the side's slope allows for, and would move the
-// side's shadow far away. A cap seen edge-on has one depth all over, the mean of its corners', and none of it is any
-// use. Then the side has the corners' depths, which are those of a triangle's plane too.
+// Joins a side, in polygon_ after clipping, to its cap. The side's vertices go into ring_, beginning at the edge that
+// side and cap share. There they get the cap's depths, so that at this edge the side is neither before nor behind the
+// cap. False where clipping has changed the edge. `side_slope`: of the side's unsnapped plane.
+// With two kinds of caps the side keeps the corners' depths, which are those of a triangle's plane too. A cap steeper
+// than the side is further off its own corners there than the side's slope allows for, and would move the side's
+// shadow far away. A cap seen edge-on has one depth all over, the mean of its corners', which is of no use.
 bool VolumeMaker::start_at_cap(const DrawnRange& cap, std::int64_t side_slope) {
   const ClipPoint pa = view_->to_clip(points_[0]);
   const ClipPoint pb = view_->to_clip(points_[3]);
@@ -182,10 +182,10 @@ std::optional<ScreenPlane> VolumeMaker::whole_plane(std::int64_t bound) const {
   return plane && all_on() ? plane : std::nullopt;
 }
 
-// The side in ring_. It has up to seven vertices and a plane goes through three: half a subpixel at a short edge grows
-// with the distance from it. Where that shows, a side that lies beyond the edge, where it cannot hide its cap, has its
-// unsnapped plane; any other is parted into pieces, all with the first vertex, each with the plane of its own vertices
-// and only those that lie on it. Neighbours meet on the line that they share.
+// Adds the side in ring_. It has up to seven vertices and a plane goes through three: half a subpixel at a short edge
+// grows with the distance from it. Where that shows, a side that lies beyond the edge cannot hide its cap, and has its
+// unsnapped plane. Any other side is parted into pieces, all with the first vertex; each has the plane of its own
+// vertices, and only vertices that lie on it. Neighbours meet on the line that they share.
 void VolumeMaker::add_joined(std::int32_t w, const ScreenPlane& truth, std::span<const ScreenVertex> cap) {
   const std::int64_t bound =
       ((slope(truth) >> (view_->sub_bits() + 1)) >> (kPlaneFrac - kVertexFrac)) + (std::int64_t{1} << kVertexFrac);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Animated PNG, written here because OpenImageIO writes none. The other animated format that it has, GIF, would show
-// 256 colours, and with them differences that are none. An animated PNG is a PNG with three more kinds of chunks (acTL:
-// how many pictures; fcTL: how long one is shown; fdAT: the data of all but the first), so programs that know nothing
-// of them show the first picture.
+// Animated PNG, written here because OpenImageIO writes none. OpenImageIO's other animated format, GIF, has only 256
+// colours, and would show differences that are none. An animated PNG is a PNG with three more kinds of chunks, so
+// programs that do not know them show the first picture:
+//   acTL  how many pictures there are
+//   fcTL  how long one is shown
+//   fdAT  the data of all but the first
 #include "image/blink.hpp"
 
 #include <fmt/format.h>
@@ -40,8 +42,8 @@ void chunk(OutputFile& out, const char* name, const Bytes& content) {
     out.write(reinterpret_cast<const char*>(part->data()), static_cast<std::streamsize>(part->size()));
 }
 
-/// The lines of `image`, black to the right and below up to width x height, as PNG compresses them: each behind the
-/// number of its filter, 1, by which bytes are differences to the pixel on the left.
+/// The lines of `image` as PNG compresses them, black to the right and below up to width x height. Each line begins
+/// with the number of its filter, 1, which makes bytes differences to the pixel on the left.
 Bytes compressed(const Image& image, int width, int height, const std::string& name) {
   const std::size_t line = static_cast<std::size_t>(width) * 3 + 1;
   Bytes raw(line * static_cast<std::size_t>(height));

@@ -6,9 +6,9 @@
 
 namespace kage {
 
-/// Bytes that opening a picture takes, by the file's own header, in formats whose reader decodes the picture before it
-/// tells the size: GIF, JPEG 2000, and JPEG that is progressive or has several scans. Of all other files 0. More than
-/// is taken rather than less.
+/// Bytes that opening a picture takes, by the file's own header. Only readers that decode the picture before they give
+/// its size take some: GIF, JPEG 2000, and JPEG that is progressive or has several scans. All other files give 0. The
+/// number is rather too large than too small.
 std::uint64_t bytes_of_opening(const std::filesystem::path& path);
 
 }  // namespace kage

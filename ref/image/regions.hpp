@@ -10,11 +10,11 @@
 
 namespace kage {
 
-/// Gathers pixels into boxes of neighbours: the picture is cut into tiles of 8 x 8 pixels, and pixels belong together
-/// if a chain of touching tiles with pixels in them leads from one to the other.
+/// Gathers pixels into boxes of neighbours. The picture is cut into tiles of 8 x 8 pixels; pixels belong together if a
+/// chain of touching tiles with pixels in them leads from one to the other.
 ///
-/// Pixels come line by line. Memory is that of a line's tiles and of the boxes that are kept, whatever the height: a
-/// box that no tile of the line before touches is done, and of those the largest are kept.
+/// Pixels come line by line. A box is done once no tile of the last line of tiles touches it, and of the boxes that
+/// are done the largest are kept. So the memory is that of a line's tiles and of the kept boxes, whatever the height.
 class RegionFinder {
  public:
   /// `most`: so many boxes are kept.

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t kMostText = 400;
 constexpr std::size_t kMostMarks = 4;
 
-// What a handler reads: no memory is asked for, and nothing waited for.
+// Data that a signal handler reads: so that it asks for no memory and waits for nothing.
 struct Marks {
   std::array<std::array<char, kMostText + 1>, kMostMarks> texts{};
   std::size_t count = 0;

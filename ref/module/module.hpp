@@ -11,18 +11,18 @@
 
 namespace kage {
 
-/// What every table begins with: kage's version and a checksum of what both sides take a table to be (CMake makes it of
-/// the headers). A module of another kage is refused.
+/// Head of every table: kage's version and a checksum of the headers that declare the tables (CMake makes it). A module
+/// of another kage is refused.
 struct ModuleHead {
   const char* version;
 };
 
-/// Opens libNAME.so from $KAGE_MODULE_DIR if that is set, else from where it was built, else from lib/kage of where it
-/// was installed, else from there beside kage's data, unless others than this user and root may write there, and
-/// returns what its function NAME_table() gives. It stays open. Throws Error that names the file that is missing and
-/// what cannot be done without it. Libraries that start threads end the program where one finds no memory, so a module
-/// is refused unless `room` bytes of address space are free; and unless some threads can be started, if `room` is not
-/// 0.
+/// Opens libNAME.so and returns the result of its function NAME_table(). It stays open. The file is taken from
+/// $KAGE_MODULE_DIR if that is set, else from where it was built, else from lib/kage of where it was installed, else
+/// from there beside kage's data. Unless it is in $KAGE_MODULE_DIR, it counts only if nobody but this user, root and
+/// the program's owner could have put it there. Throws Error that names the missing file and what cannot be done
+/// without it. Libraries that start threads end the program where a thread finds no memory. So a module is refused
+/// unless `room` bytes of address space are free, and, if `room` is not 0, unless some threads can be started.
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room);
 
 /// The version that both sides must have: ModuleHead.

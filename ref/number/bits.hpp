@@ -18,8 +18,8 @@ constexpr std::int64_t sign_extend(std::uint64_t v, int bits) {
   return static_cast<std::int64_t>(v << (64 - bits)) >> (64 - bits);
 }
 
-/// What of a value, counted from the least that fits its field, lies above the field's bits: 0 if it fits. A field of
-/// no bits holds 0.
+/// The bits of a value above those of its field, counted from the least value that fits: 0 if the value fits. A field
+/// of no bits holds 0.
 constexpr std::uint64_t beyond(std::int64_t value, Field f) {
   const std::uint64_t least = (std::uint64_t{f.is_signed} << f.bits) >> 1;
   return (static_cast<std::uint64_t>(value) + least) >> f.bits;

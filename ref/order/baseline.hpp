@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the ways are measured against, for measuring only: side tests are plain doubles and floats, so a node whose
-// plane nearly holds the eye may be taken for the wrong side.
+// Baselines that the ways are measured against, for measuring only. Their side tests are plain doubles and floats, so a
+// node whose plane nearly holds the eye may be taken for the wrong side.
 #pragma once
 
 #include <cstdint>

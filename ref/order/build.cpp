@@ -24,8 +24,8 @@ constexpr std::size_t kTask = 1024;
 /// Fragments that are put on a side between two calls of OrderBuildOptions::progress: some milliseconds.
 constexpr std::uint64_t kReport = 4096;
 
-/// What a set will take, as an estimate for the progress: n faces through one another come to n^3 / 7 fragments. Faces
-/// of real meshes hardly do, and then it matters little, because sets are cut in halves.
+/// Estimated work for a set, for the progress: n faces that all cut one another come to n^3 / 7 fragments. Faces of
+/// real meshes hardly cut one another, and then it matters little, because sets are cut in halves.
 double work_of(const std::vector<BuildFragment>& set) {
   const auto n = static_cast<double>(set.size());
   return n * n * n;
@@ -35,7 +35,7 @@ struct Set {
   std::vector<BuildFragment> fragments;
   BuildNode** link;
   std::uint64_t random;
-  double share;  ///< of the whole build, as estimated: what its nodes will take
+  double share;  ///< of the whole build, as estimated, that its nodes will take
 };
 
 class Builder {
@@ -117,7 +117,7 @@ class Builder {
     feeder.add(shared);
   }
 
-  /// What a thread has done and not reported yet.
+  /// Work that a thread has done and not reported yet.
   struct Done {
     double share = 0;
     std::uint64_t fragments = 0;  ///< put on a side, be it for good or not

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a tree holds.
+// Data of a tree.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ struct Faces {
   std::vector<std::uint32_t> corners;
   std::vector<Face> faces;
 
-  /// Of what vertices, corners and faces hold already.
+  /// Computes scale, grid and scaled from `vertices`.
   void derive() {
     scale = scale_of(vertices);
     grid = grid_of(vertices);

@@ -53,8 +53,9 @@ int exact_facing(const PlanePoints& plane, const OrderPoint& direction);
 /// Signs of the components of (b - a) x (c - b).
 std::array<int, 3> exact_turn(const OrderPoint& a, const OrderPoint& b, const OrderPoint& c);
 
-/// How a picture is taken. What lies at (x, y) of it is eye + t (x right + y up + forward) (perspective), or eye + x
-/// right + y up + t forward (parallel), for some t.
+/// How a picture is taken. The points at (x, y) of it, for every t, are
+///   perspective:  eye + t (x right + y up + forward)
+///   parallel:     eye + x right + y up + t forward
 struct Picture {
   bool perspective = true;
   OrderPoint eye{};
@@ -63,13 +64,15 @@ struct Picture {
   OrderPoint forward{};
 };
 
-/// The function l[0] x + l[1] y + l[2] on the picture that is 0 where `face` and `node` meet (cut_line() in
-/// geometry/translucent.cpp derives it): with n, m the normals of node and face, k = right, up, forward, and dn = n .
-/// (eye - node.a), dm = m . (eye - face.a),
-///   perspective: l[k] = dm (n . k) - dn (m . k)
-///   parallel:    l = (m.forward n.right - n.forward m.right, m.forward n.up - n.forward m.up, m.forward dn - n.forward
-///   dm)
-/// all by one positive factor, so that the largest is 1/2 .. 1; each is within 2^-52 of its size, or of 2^-1000.
+/// The function l[0] x + l[1] y + l[2] on the picture that is 0 where `face` and `node` meet; cut_line() in
+/// geometry/translucent.cpp derives it. Let n and m be the normals of node and face, dn = n . (eye - node.a) and
+/// dm = m . (eye - face.a), and k = right, up, forward:
+///   perspective:  l[k] = dm (n . k) - dn (m . k)
+///   parallel:     l[0] = m.forward n.right - n.forward m.right
+///                 l[1] = m.forward n.up - n.forward m.up
+///                 l[2] = m.forward dn - n.forward dm
+/// All are scaled by one positive factor, so that the largest is 1/2 .. 1. Each is within 2^-52 of its size, or of
+/// 2^-1000.
 OrderPoint exact_meeting(const PlanePoints& face, const PlanePoints& node, const Picture& picture);
 
 }  // namespace kage::order

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The fast way (docs/order.md). The order is an array, and each part (parts.hpp) knows where in it its subtree begins.
-// A step tests sides in vectors, which lists what flipped; then either looks flipped clusters up anew and exchanges the
-// two subtrees of each top that flipped, top down; or places all parts again, run by run, which costs the same whatever
-// flipped. Which is cheaper, costs measured on this very tree say.
+// A step tests sides in vectors, which lists the nodes that flipped. Then it takes the cheaper of two ways, by costs
+// measured on this very tree. An exchange looks flipped clusters up anew and exchanges the two subtrees of each top
+// that flipped, top down. A rebuild places all parts again, run by run, which costs the same whatever flipped.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -86,7 +86,7 @@ class Fast final : public VisibilityOrder {
   void test(double way);
   void decide_unsure(std::uint64_t blocks);
   bool exchange_is_cheaper();
-  /// What exchanging costs by costs_, as far as it is not more than `limit`.
+  /// Cost of an exchange by costs_; counting stops where it exceeds `limit`.
   double exchange_cost(double limit);
   void exchange();
   void rebuild();

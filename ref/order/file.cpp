@@ -66,7 +66,7 @@ void for_arrays(Data& d, Cuts& cuts, Stats& stats, Visit visit) {
 constexpr std::size_t kArrays = 11;
 constexpr std::size_t kHeader = 16 + 8 * kArrays;
 
-/// What is wrong with arrays that were read, or nothing.
+/// The fault of arrays that were read, in words; empty if they are sound.
 std::string check(const order::TreeData& d) {
   using order::Face;
   const std::size_t nodes = d.size.size();

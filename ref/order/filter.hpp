@@ -64,7 +64,7 @@ class FilterPlane {
     return normal_[0] * (p[0] - a_[0]) + normal_[1] * (p[1] - a_[1]) + normal_[2] * (p[2] - a_[2]);
   }
 
-  /// Of value(p.at) against the true point's value; p.at is at most 1 in each coordinate.
+  /// Bound of the error of value(p.at) against the true point's value; p.at is at most 1 in each coordinate.
   [[nodiscard]] double error(const NearPoint& p) const { return bound_ + slope_ * p.radius * (1 + 0x1p-40); }
 
   /// The same for any point without radius.

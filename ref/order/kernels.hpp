@@ -27,7 +27,7 @@ struct SideCounts {
   double margins = 0;        ///< sum over the blocks tested
 };
 
-/// What a test reads and writes. Arrays by block have room for kBlock more.
+/// Arrays that a test reads and writes. Those by block have room for kBlock more.
 struct SideBlocks {
   const float* planes = nullptr;  ///< by block: x of the normals of its nodes, y of them, z, offsets; kBlock each
   std::uint32_t nodes = 0;

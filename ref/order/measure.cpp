@@ -119,7 +119,7 @@ class Measurement {
     return row;
   }
 
-  /// What happens in each step, not timed.
+  /// Compares the ways' orders and counts flips in each step, not timed.
   void check(const std::vector<Eye>& eyes, MeasureRow& row) {
     double flips = 0;
     double tested = 0;

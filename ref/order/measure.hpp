@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The ways side by side, for `kage order` and verif/bench. All run in turn in one process over the same eyes; a time is
-// the sum over all eyes but the first, from the eye's coordinates to the finished order, and the median of the repeats.
+// The ways side by side, for `kage order` and verif/bench. All run in turn in one process over the same eyes. A time is
+// taken from the eye's coordinates to the finished order and summed over all eyes but the first. It is the median of
+// the repeats.
 #pragma once
 
 #include <cstdint>

@@ -74,8 +74,8 @@ HWY_INLINE void add_to(std::uint32_t* HWY_RESTRICT values, std::size_t begin, st
   for (; i < end; i += lanes) some(i);
 }
 
-/// memmove of words; may read past the end. From the end that is not overwritten first, without a branch on which. What
-/// is no whole vector is read before and written after all else.
+/// memmove of words; may read past the end. It begins at the end that is not overwritten first, without a branch on
+/// which end that is. The rest that fills no whole vector is read before and written after all else.
 HWY_INLINE void move_words(std::uint32_t* to, const std::uint32_t* from, std::size_t count) {
   const D16 d;
   const auto lanes = static_cast<std::ptrdiff_t>(hn::Lanes(d));

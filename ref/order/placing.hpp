@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What moves nodes in the array, compiled as kernels.hpp's tests are.
+// Kernels that move nodes in the array, compiled as kernels.hpp's tests are.
 #pragma once
 
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 namespace kage::order {
 
-/// A piece of the tree (parts.hpp). Of a top node: the part that its second child begins, or one past all parts; and
-/// that child's nodes and one. Of a cluster: its first node; and nodes + 16 * where the orders of its shape begin in
-/// the table.
+/// A piece of the tree (parts.hpp):
+/// - a top node: `a` is the part that its second child begins, or one past all parts; `b` is that child's nodes plus 1.
+/// - a cluster: `a` is its first node; `b` is its nodes + 16 * the place in the table where its shape's orders begin.
 struct Part {
   std::uint32_t a = 0;
   std::uint32_t b = 0;

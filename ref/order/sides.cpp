@@ -59,7 +59,7 @@ double EyeSides::way_from(const EyeSides& before) const {
   const OrderPoint& q = eye_.perspective ? before.at_ : before.unit_;
   double sum = 0;
   for (std::size_t i = 0; i < 3; ++i) sum += (p[i] - q[i]) * (p[i] - q[i]);
-  // What rounding and underflow can take away, here and where ways are summed up.
+  // Adds all that rounding and underflow can take away, here and where ways are summed up.
   const double way = std::sqrt(sum) * (1 + 0x1p-40) + 0x1p-41;
   return way < 0x1p9 ? way : std::numeric_limits<double>::infinity();
 }

@@ -3,8 +3,8 @@
 // [Tanaka 2005] section 3: one doubly linked list of all nodes in drawing order. Each node knows first and last element
 // of the sublists drawn before it (LL, LR) and after it (RL, RR); when the eye changes sides, the two sublists change
 // places. Departures from the paper (docs/order.md): its four exchanges need both sublists, so here the stretch from LL
-// to RR is taken out and put back as RL .. RR, node, LL .. LR, whichever are empty. Its changeParent() is left open:
-// here children come before their parents, and a node whose ends changed tells its parent, once a step; so a step
+// to RR is taken out and put back as RL .. RR, node, LL .. LR, whichever are empty. The paper leaves changeParent()
+// open. Here children come before their parents, and a node whose ends changed tells its parent, once a step. So a step
 // touches no node twice, and no ancestor whose ends stay.
 #include "order/sides.hpp"
 #include "order/ways.hpp"

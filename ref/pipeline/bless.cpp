@@ -71,7 +71,7 @@ std::string reason_of(const fs::path& a, const fs::path& b, Sort sort) {
   return diff_bytes(a, b);
 }
 
-/// What is new must be sound: a NaN in a reference would fail every comparison with it from then on.
+/// Throws Error unless a new file is sound: a NaN in a reference would fail every later comparison with it.
 void check_fresh(const fs::path& path, Sort sort) {
   if (sort != Sort::picture) {
     (void)reason_of(path, path, sort);  // reads it to the end

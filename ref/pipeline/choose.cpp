@@ -14,9 +14,10 @@
 namespace kage {
 namespace {
 
-// A later configuration of the list takes the place of an earlier one if it costs a tenth less. What is first in the
-// list is what most people know, the costs are of one frame, and of cores whose estimates of look-up tables are nearer
-// than that, one in five is not the smaller one (docs/plan.md, "The estimate of cells").
+// A later configuration of the list takes the place of an earlier one if it costs a tenth less. Less does not count:
+// most people know the first of the list, the costs are of one frame, and the estimate of look-up tables has an error.
+// Where two estimates are nearer than that, one in five does not name the smaller core (docs/plan.md, "The estimate of
+// cells").
 constexpr double kWorthMoving = 0.9;
 
 /// Whether a configuration is ever chosen without its name.

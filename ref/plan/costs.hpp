@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the frames of scenes cost a core of given widths, for every arrangement that it may have.
+// Costs of the frames of scenes for a core of given widths, in every arrangement that it may have.
 #pragma once
 
 #include <span>
@@ -11,8 +11,8 @@
 
 namespace kage::plan {
 
-/// Every arrangement of the widths of `base`: banked with each number of lanes and each width of the port; for lines of
-/// up to 64 pixels, which is what a processor for each pixel is worth, systolic too.
+/// Every arrangement of the widths of `base`: banked with each number of lanes and each width of the port. For lines of
+/// up to 64 pixels, where a processor for each pixel is still worth it, systolic too.
 std::vector<Config> arrangements_of(const Config& base);
 
 /// Makes the frames once and costs them for each of arrangements_of(base), in that order. The golden core runs once.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the frames of scenes ask of a core: found out by making all of them once with widths that lose next to nothing.
+// Demands of the frames of scenes on a core: found by making all of them once with widths that lose next to nothing.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct Most {
   }
 };
 
-/// What scenes ask for, whatever way shadows take.
+/// Demands of scenes that do not depend on the way shadows are drawn.
 struct Features {
   Needs needs;  ///< of all frames together
   Most width;   ///< of a picture
@@ -46,7 +46,7 @@ struct ShareGroup {
   PlanPlace at;
 };
 
-/// What one way to draw shadows asks for.
+/// Demands of one way to draw shadows.
 struct WayDemand {
   int dsf_bits = 0;
   Most volumes;                    ///< of a light sample
@@ -56,7 +56,7 @@ struct WayDemand {
   std::vector<ShareGroup> groups;  ///< what shadows take, without repetition
 };
 
-/// What expansion units must have for all polyhedra that can go to one.
+/// Expansion units that hold all polyhedra that can go to one.
 struct UnitDemand {
   Most units;       ///< 0: no frame has a polyhedron
   Most faces;       ///< of a unit
@@ -66,7 +66,7 @@ struct UnitDemand {
   Most last_index;  ///< draw index of the last polyhedron in a unit
 };
 
-/// What a front end must have for all polygons that can go as such.
+/// A front end that holds all polygons that can go as such.
 struct FrontEndDemand {
   Most active;              ///< polygons at once on a line
   std::uint64_t left = 0;   ///< those for which no front end has room
@@ -89,7 +89,7 @@ WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& featur
 
 UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& features, const FrameStep& step);
 
-/// Of a core of this configuration, whatever its ACTIVE.
+/// The front end that the scenes need in a core of this configuration, whatever its ACTIVE.
 FrontEndDemand front_end_demand_of(std::span<const PlannedScene> scenes, Config config, const FrameStep& step);
 
 /// "frame 3, line 211", with the scene's name if there are several.

@@ -57,7 +57,7 @@ class Planner {
                       total_lines(), height));
   }
 
-  /// What the frames ask for: units, and each way to draw shadows.
+  /// Finds the frames' demands: units, and each way to draw shadows.
   void look() {
     const bool shadows = features_.needs.shadows;
     // One pass looks for units. Each way is looked at once, and costed by spans and, if anything goes to units, with
@@ -75,7 +75,7 @@ class Planner {
     passes_ = (options_.front_end ? 2 : 1) + of_way * static_cast<int>(demands_.size());
   }
 
-  /// ACTIVE changes no pixel and no other parameter, so the core that is chosen gets what its frames ask for. Those
+  /// ACTIVE changes no pixel and no other parameter, so the chosen core gets as much as its frames ask for. The cores
   /// that it is compared with get as much.
   void add_front_end() {
     const plan::FrontEndDemand demand = plan::front_end_demand_of(scenes_, out_.config, [this] { step(); });
@@ -101,7 +101,7 @@ class Planner {
     }
   }
 
-  /// A frame begins. What is told never goes back, even where there are more passes than were known of.
+  /// A frame begins. The reported progress never falls, even where more passes turn out to be needed.
   void step() {
     told_ = std::max(told_, static_cast<double>(steps_) / (static_cast<double>(passes_) * out_.frames));
     ++steps_;
@@ -152,7 +152,7 @@ class Planner {
   /// Where a display sets the pace, what keeps up is not late; what does not is as late as it is slow.
   static double late_of(const PlanCandidate& c) { return c.cost.meets_clock.value_or(true) ? 0 : c.cost.needed_line; }
 
-  /// What is preferred; less is better.
+  /// The preferred quantity of a candidate; less is better.
   static double wanted_of(const PlanCandidate& c, Prefer prefer) {
     switch (prefer) {
       case Prefer::speed:
@@ -164,8 +164,8 @@ class Planner {
     }
   }
 
-  /// The one with the least of what is preferred. What keeps up comes first, and what comes nearest to it where nothing
-  /// does.
+  /// The candidate with the least of the preferred quantity. Candidates that keep up with the display come first; where
+  /// none does, the one that comes nearest to it.
   static const PlanCandidate& least_of(const std::vector<const PlanCandidate*>& list, Prefer prefer) {
     const auto key = [&](const PlanCandidate* c) {
       return std::tuple(late_of(*c), wanted_of(*c, prefer), rest_of(*c, prefer));
@@ -173,7 +173,7 @@ class Planner {
     return **std::min_element(list.begin(), list.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
   }
 
-  /// What decides among those that are equal in what is preferred.
+  /// Quantities that decide, in this order, among candidates that are equal in the preferred one.
   static std::tuple<double, double, double> rest_of(const PlanCandidate& c, Prefer prefer) {
     const auto clocks = static_cast<double>(c.cost.clocks);
     const auto words = static_cast<double>(c.cost.words);

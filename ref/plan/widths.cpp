@@ -36,8 +36,9 @@ std::string counted_most(const Most& most, std::string_view singular, std::strin
 /// "0.8 steps", "1 step".
 std::string steps_text(const std::string& figure) { return figure + (figure == "1" ? " step" : " steps"); }
 
-/// How many of a group's samples make a pixel differ by most, and by how much: each sample of a light adds what its
-/// share is off of a full colour, less what it takes of the difference that the colour has already.
+/// The largest difference that a group's samples can make at a pixel whose colour is off by `before`. Each sample of a
+/// light adds its share's error of a full colour, less its share of the difference that the colour has already. Samples
+/// that would lessen the difference are left out.
 double group_error(const ShareGroup& group, double before, int shade_frac) {
   double error = before;
   for (const Share& s : group.shares) {
@@ -280,7 +281,7 @@ class Maker {
                          at(units_->last_index)));
   }
 
-  /// What has room for the bodies that go to units.
+  /// Sets a width that gives room for the bodies that go to units.
   void set_room(int Config::*member, int least, const std::string& text) {
     const ParamInfo& p = info_of(member);
     const int value = std::max(p.min, least);

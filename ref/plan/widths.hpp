@@ -16,16 +16,19 @@ namespace kage::plan {
 
 /// The next step at or above `least`, of X_BITS and Z_FRAC: 8, 11, 12, 15. Past the last: `least`.
 int position_step(int least);
-/// Of Z_BITS, COLOR_FRAC and SHADE_FRAC: a multiple of four.
+/// The next step of Z_BITS, COLOR_FRAC and SHADE_FRAC: a multiple of four.
 int four_step(int least);
-/// Of MAX_WIDTH: the least width at or above it that a named configuration has; `least` past the widest.
+/// The next step of MAX_WIDTH: the least width at or above `least` that a named configuration has; `least` past the
+/// widest.
 int width_step(int least);
-/// Of CLASS_BITS: 4, 8, 11.
+/// The next step of CLASS_BITS: 4, 8, 11.
 int class_step(int least);
 
-/// Bound of a stored depth's error in steps of Z_BITS bits, after `pixels` pixels of a span, in a picture of this size:
-/// half a step of the start's and the slope's rounding, 2^-(Z_FRAC + 1) each and the slope's at every pixel; half a
-/// step for the integer part, if there is a fraction; the rounding of plane and vertices (docs/numbers.md, "Depth").
+/// Bound of a stored depth's error in steps of Z_BITS bits, after `pixels` pixels of a span, in a picture of this size.
+/// It is the sum of these:
+/// - the rounding of the start and, at every pixel, of the slope: half a step of the fraction, 2^-(Z_FRAC + 1), each,
+/// - half a step for the integer part, if there is a fraction,
+/// - the rounding of plane and vertices (docs/numbers.md, "Depth").
 double depth_error(double pixels, int z_frac, int width, int height);
 
 /// The same as a share of the depth range, which has 2^Z_BITS - 3 steps.
@@ -46,13 +49,13 @@ struct Widths {
   double z_error = 0;               ///< bound of the depth's error, as a share of the range
 };
 
-/// What becomes of a limit that no width is bound to keep.
+/// Treatment of a limit that no width is sure to keep.
 enum class Unkept : std::uint8_t {
   refuse,  ///< Error
   finest,  ///< the finest width is taken: the limit may be kept all the same, which pictures show
 };
 
-/// What an arrangement and a way to draw shadows do not decide.
+/// The widths, which do not depend on the arrangement, for a way to draw shadows.
 Widths widths_of(std::span<const PlannedScene> scenes, const Features& features, const WayDemand& way,
                  const UnitDemand* units, const PlanLimits& limits, Unkept unkept);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the front end keeps of a polygon from line to line, and the span that it has on a line. The arithmetic is that
+// The front end's state of a polygon, kept from line to line, and the polygon's span on a line. The arithmetic is that
 // of the kernels (hls/kernels), from which the RTL's is made.
 #pragma once
 
@@ -83,7 +83,7 @@ struct ActivePolygon {
 
   static constexpr int kNoEnd = (1 << (kEndLineBits - 1)) - 1;
 
-  /// Of a POLYGON.
+  /// Begins with a POLYGON.
   ActivePolygon() = default;
   ActivePolygon(const Config& config, Place at, const Token& t) : place(at), depth(t.polygon) {
     look.normal_class = t.span.normal_class;

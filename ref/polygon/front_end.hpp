@@ -33,9 +33,10 @@ class FrontEnd {
   /// The most polygons that the frame has had at once: the least ACTIVE that takes it.
   [[nodiscard]] std::size_t most() const { return most_; }
 
-  /// Takes the frame's next token, of a kind that the configuration has, and calls emit(token, made) for each token of
-  /// the span level that comes of it, in order: `made` by the front end, or as it came. What emit() returns, if it is
-  /// not NONE, or what is wrong with the token, is the answer; nothing but start() may follow it.
+  /// Takes the frame's next token, of a kind that the configuration has. Calls emit(token, made) in order for each
+  /// token of the span level that comes of it: `made` by the front end, or as it came.
+  /// @return NONE, or the first other result of emit(), or the token's own error; after an error only start() may
+  /// follow
   template <class Emit>
   ErrorCode accept(const Token& t, Emit emit) {
     const auto make = [&emit](const Token& token) { return emit(token, true); };
@@ -185,7 +186,7 @@ class FrontEnd {
     return make(t);
   }
 
-  /// What ends before a span at this place.
+  /// Ends the volumes and samples that end before a span at this place.
   template <class Make>
   ErrorCode before(Place place, const SpanToken& s, Make make) {
     if (place.layer() == static_cast<int>(Layer::volumes)) return ends_.token(place, s.xl, s.xr, make);

@@ -9,7 +9,7 @@
 
 namespace kage {
 
-/// What a place is of: AT's layer.
+/// Layer of a place, as AT has it.
 enum class Layer : std::uint8_t { opaque = 0, volumes = 1, translucent = 2 };
 
 /// Compared by its number, which has the layer highest.
@@ -23,7 +23,7 @@ class Place {
   constexpr Place(Layer layer, std::uint32_t order)
       : number_(put(static_cast<int>(layer), kLayerLsb) | std::uint64_t{order}) {}
 
-  /// What its AT says, but for the light.
+  /// The fields of its AT, but for the light.
   [[nodiscard]] constexpr PolygonToken token() const {
     PolygonToken t;
     t.layer = layer();

@@ -23,9 +23,9 @@ class SpanTokens {
 
   [[nodiscard]] Level level() const { return level_; }
 
-  /// Calls use(token, made) for each that the frame's next token comes to; `made` by the front end, or as it came. What
-  /// `use` returns, if anything, is what it finds wrong; it is called no more then. The answer is what is wrong with
-  /// the token, by `use` or because it is out of its place: nothing but start() may follow it.
+  /// Calls use(token, made) for each span-level token that the frame's next token comes to: `made` by the front end, or
+  /// as it came. `use` may return an error; then it is called no more.
+  /// @return NONE, or the error of `use`, or that of the token out of its place; after an error only start() may follow
   template <class Use>
   ErrorCode add(const Token& t, Use use) {
     const auto give = [&use](const Token& token, bool made) {

@@ -24,8 +24,8 @@ inline constexpr std::uint8_t kDone = '.';
 /// The exit code of an importer that is of another kage than who asks.
 inline constexpr int kOtherVersion = 4;
 
-/// Does `work` within the limits, writes what it returns, or why it could not, and ends the process. `parent` is who
-/// asked: with it the process dies. What `work` throws that is no Error is told behind `name`.
+/// Does `work` within the limits, writes its result, or the cause of its failure, and ends the process. `parent` is the
+/// process that asked: when it dies, this one dies too. The text of an exception that is no Error follows `name`.
 [[noreturn]] void answer(int parent, const std::string& name, const ImportLimits& limits,
                          const std::function<std::vector<std::uint8_t>()>& work);
 

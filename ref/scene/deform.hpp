@@ -13,7 +13,7 @@
 
 namespace kage::scene {
 
-/// What moves the vertices of a mesh. A source is a vertex as the file has it, counted through all primitives.
+/// Data that move the vertices of a mesh. A source is a vertex as the file has it, counted through all primitives.
 struct Motion {
   std::size_t influences = 0;          ///< joints of each source
   std::vector<std::uint32_t> joints;   ///< into the skin's
@@ -34,7 +34,7 @@ struct Motion {
   [[nodiscard]] bool same(std::size_t a, std::size_t b) const;
 };
 
-/// What moves a raw mesh's vertices: all but `sources` and `shading`.
+/// The motion of a raw mesh: all members but `sources` and `shading`.
 Motion motion_of(const RawMesh& raw);
 
 /// A mesh in the world.

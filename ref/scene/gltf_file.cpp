@@ -145,7 +145,7 @@ GltfFile::GltfFile(const std::filesystem::path& path, std::string name, bool all
   buffers_.resize(count("buffers"));
 }
 
-/// Of a binary file: takes the buffer out of it, and leaves the JSON of `text`.
+/// For a binary file: takes its buffer out of `text`, and leaves the JSON there.
 void GltfFile::read_chunks(Bytes& text) {
   is_binary_ = true;
   if (text.size() < 20) fail("header", "the file ends within it");

@@ -19,7 +19,7 @@
 
 namespace kage::scene {
 
-/// What GltfJson::numbers() gives of a vector.
+/// A vector from the numbers that GltfJson::numbers() gives.
 inline glm::dvec3 vec3(const std::vector<double>& v) { return {v[0], v[1], v[2]}; }
 
 class GltfFile : public GltfJson {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// glTF 2.0 into a RawScene. kage reads it itself, because Assimp computes with it (matrices and fields of view in
-// float, by libm) and the result differs between its versions; here numbers go from the file into the scene untouched.
+// glTF 2.0 into a RawScene. kage reads it itself, and numbers go from the file into the scene untouched. Assimp
+// computes with them (matrices and fields of view in float, by libm), and its results differ between its versions.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -154,7 +154,7 @@ void Importer::read_map(const Json& json, RawNode& node, const std::string& plac
   if (!s.empty()) node.scale = vec3(s);
 }
 
-// What is hidden is neither drawn nor shines; a camera sees all the same. [KHR_node_visibility]
+// A hidden node's mesh is not drawn and its light does not shine; its camera works all the same. [KHR_node_visibility]
 void Importer::read_content(const Json& json, RawNode& node, std::uint32_t number, bool hidden,
                             const std::string& place) {
   const auto mesh = file_.integer(json, "mesh", place);

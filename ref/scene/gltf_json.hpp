@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The JSON of a glTF 2.0 file with checked access, which takes note of everything that is read. What was never read has
-// not gone into the picture: unread() finds it, so that no key of a file can be passed over in silence because nobody
-// thought of it. Everything that does not hold what the format demands is an Error that names file and place.
+// The JSON of a glTF 2.0 file with checked access, which takes note of everything that is read. Keys that were never
+// read have not gone into the picture. unread() finds them, so that no key of a file is passed over in silence because
+// nobody thought of it. Everything that breaks the rules of the format is an Error that names file and place.
 #pragma once
 
 #include <cstddef>
@@ -37,7 +37,7 @@ class GltfJson {
   [[nodiscard]] const Json& item_of(const Json& array, std::uint64_t index, const char* what,
                                     const std::string& place) const;
 
-  // Members of an object. What is absent is the default; what is of another type is an Error. All count as read.
+  // Members of an object. An absent member gives the default; one of another type is an Error. All count as read.
   [[nodiscard]] bool has(const Json& object, const char* key) const { return find(object, key) != nullptr; }
   [[nodiscard]] std::optional<std::uint64_t> integer(const Json& object, const char* key,
                                                      const std::string& place) const;

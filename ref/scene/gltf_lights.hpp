@@ -14,7 +14,7 @@ namespace kage::scene {
 /// Refers to what it is made of.
 class GltfLights {
  public:
-  /// What is not drawn as the file has it.
+  /// Numbers of lights that are not drawn as the file has them.
   struct Counts {
     std::size_t black = 0;
     std::size_t shaped_suns = 0;  ///< directional lights with a shape

@@ -16,8 +16,8 @@ const Json& gloss_of(const GltfFile& file, const Json& material, const std::stri
   return file.extension(material, "KHR_materials_pbrSpecularGlossiness", here);
 }
 
-/// References to textures that the file does not have, wherever in the material they stand. What they name is not
-/// drawn, so they do not count as read.
+/// Number of references to textures that the file does not have, wherever in the material they stand. Textures are not
+/// drawn, so the references do not count as read.
 std::size_t lost_textures(const GltfFile& file, const Json& material) {
   const std::size_t textures = file.count("textures");
   const auto is_lost = [textures](const std::string& key, const Json& value) {
@@ -72,8 +72,8 @@ GltfMaterials::Material GltfMaterials::material(const GltfFile& file, const Json
   return m;
 }
 
-// A black surface shows nothing but its own light, which no other light or shadow changes. What an unlit material has
-// besides its base colour is for readers that do not know the extension.
+// A black surface shows nothing but its own light, which no other light or shadow changes. An unlit material's other
+// members, besides its base colour, are for readers that do not know the extension.
 void GltfMaterials::read_emission(const GltfFile& file, const Json& json, Material& m, const std::string& here) {
   const std::vector<double> factor = file.numbers(json, "emissiveFactor", 3, here);
   const Json& strength = file.extension(json, "KHR_materials_emissive_strength", here);

@@ -32,7 +32,7 @@ class GltfMaterials {
     bool unlit = false;
     bool glows = false;  // its colour is its own light, which the vertices' colours do not change
     bool double_sided = false;
-    // What is not drawn:
+    // Features that are not drawn:
     bool masked = false;
     bool emits = false;
     bool glossy = false;

@@ -17,7 +17,7 @@ namespace kage::scene {
 /// Refers to what it is made of.
 class GltfMeshes {
  public:
-  /// What is not drawn as the file has it, by primitives.
+  /// Numbers of primitives that are not drawn as the file has them.
   struct Counts {
     std::size_t thin = 0;   ///< points and lines
     std::size_t bare = 0;   ///< without positions

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a glTF file holds that kage's reader does not know: extensions and keys.
+// Extensions and keys of a glTF file that kage's reader does not know.
 #pragma once
 
 #include <set>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What glTF reads accessors for, which types of numbers each of these may have, and what comes of others.
+// Uses of accessors in glTF, the types of numbers that each use may have, and the treatment of other types.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace kage::scene {
 
-/// What an accessor's values are.
+/// Use of an accessor's values.
 enum class GltfUse : std::uint8_t {
   position,
   normal,

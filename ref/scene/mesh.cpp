@@ -146,7 +146,7 @@ void Builder::part_moved(std::vector<std::uint32_t>& number) {
   mesh_.vertices = std::move(vertices);
 }
 
-// What is opaque and what is translucent do not hang together: glass in a wall leaves a hole in it.
+// Opaque and translucent triangles make separate components: glass in a wall leaves a hole in it.
 void Builder::assemble(bool translucent) {
   std::vector<std::uint32_t> of;
   std::vector<Corners> triangles;

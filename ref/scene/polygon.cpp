@@ -109,8 +109,8 @@ class Outline {
     return false;
   }
 
-  /// Of a polygon that turns to one side at all its corners: whether it goes round more than once. Each time round its
-  /// edges lead twice from one side to the other.
+  /// Whether a polygon that turns to one side at all its corners goes round more than once. Each time round, its edges
+  /// lead twice from one side to the other.
   [[nodiscard]] bool winds() const {
     int turns = 0;
     double last = 0;
@@ -128,7 +128,7 @@ class Outline {
     double x, y;
   };
 
-  /// Of length 1. A figure of eight may have no area; then it is that of the widest corner at its first place.
+  /// Normal of length 1. A figure of eight may have no area; then it is that of the widest corner at its first place.
   static glm::dvec3 normal(const std::vector<glm::dvec3>& p) {
     const auto square = [](const glm::dvec3& v) { return dot(v, v); };
     glm::dvec3 far{0, 0, 0};

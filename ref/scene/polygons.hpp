@@ -18,7 +18,7 @@ namespace kage::scene {
 /// polygon's first triangle. As for convexity: what single precision leaves of a plane.
 inline constexpr double kPlanarTolerance = kConvexTolerance;
 
-/// What a triangle's material says besides its colour.
+/// Properties of a triangle's material besides its colour.
 struct Surface {
   std::uint8_t alpha = 255;
   bool unlit = false;
@@ -27,11 +27,14 @@ struct Surface {
   bool operator==(const Surface&) const = default;
 };
 
-/// Append the polygons of a component to `polygons` and their corners to `corners`. A convex closed one's triangles are
-/// put together where they share an edge, have one colour and one normal within themselves and, up to rounding, among
-/// each other, are of the same surface (`surfaces`, of each triangle), and lie in the plane of the largest; any other
-/// triangle is a polygon of its own. `first` is the number of the component's first triangle; polygons are in the order
-/// of their lowest triangle.
+/// Append the polygons of a component to `polygons` and their corners to `corners`. In a convex closed component,
+/// triangles that share an edge are put together under these conditions:
+/// - each has one colour and one normal, and these are the same, up to rounding, in all of them,
+/// - they are of the same surface (`surfaces`, of each triangle),
+/// - they lie in the plane of the largest.
+///
+/// Any other triangle is a polygon of its own. `first` is the number of the component's first triangle; polygons are in
+/// the order of their lowest triangle.
 void append_polygons(const std::vector<glm::dvec3>& positions, std::span<const Corners> triangles,
                      std::span<const Corners> shading_corners, const std::vector<ShadingVertex>& shading,
                      std::span<const Surface> surfaces, std::uint32_t first, bool convex,

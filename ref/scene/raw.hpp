@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What an importer hands over: the file's data, not yet welded, transformed or animated. It crosses the pipe from the
-// import process (wire.hpp). Angles, units and handedness as in kage/scene.hpp.
+// An importer's result: the file's data, not yet welded, transformed or animated. It crosses the pipe from the import
+// process (wire.hpp). Angles, units and handedness as in kage/scene.hpp.
 #pragma once
 
 #include <array>
@@ -43,7 +43,7 @@ struct RawPrimitive {
   [[nodiscard]] std::size_t triangle_count() const { return faces.size(); }
 };
 
-/// What one node draws: primitives that are welded to one object.
+/// The mesh of one node: primitives that are welded to one object.
 struct RawMesh {
   std::string name;
   std::vector<RawPrimitive> primitives;

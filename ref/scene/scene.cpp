@@ -21,7 +21,7 @@
 namespace kage {
 namespace {
 
-// Of the scene's radius: see note_large_places().
+// Places further off than this many radii of the scene are far: see note_large_places().
 constexpr double kFarPlace = 1 << 29;
 
 constexpr int kDefaultFrames = 8;
@@ -101,7 +101,7 @@ struct Scene::Data {
   double exposure = 1;
   double end_time = 0;
   bool smooth = false;
-  // Of a program's own scene, frame by frame; none: those of `raw`.
+  // Cameras and lights of a program's own scene, frame by frame; if empty, those of `raw`.
   std::vector<scene::RawCamera> cameras;
   std::vector<std::vector<scene::RawLight>> light_sets;
 
@@ -235,10 +235,10 @@ void Scene::Data::measure() {
   note_large_places();
 }
 
-// A node's place far away moves all that hangs on it alike, and loses nothing. Where things hang on different ones, or
-// a mesh lies far from its own origin, how things lie to each other is what the file's numbers tell, and they are
-// noticeably rounded where a double tells places apart by 2^-23 of the scene and no better, a subpixel of the widest
-// picture.
+// A node that is far away moves all that hangs on it alike, and loses nothing. Where objects hang on different far
+// nodes, or a mesh lies far from its own origin, the objects' places to each other depend on the rounding of the file's
+// numbers. It is noticeable where a double tells places apart by no less than 2^-23 of the scene, a subpixel of the
+// widest picture.
 void Scene::Data::note_large_places() {
   const std::vector<Affine> world = scene::pose(raw, time(0, 1), frame);
   std::vector<std::int32_t> hangs_on(raw.nodes.size(), -1);

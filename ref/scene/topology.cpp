@@ -195,7 +195,7 @@ Reason Analysis::turn_outward(const MeshComponent& c) {
     volume += v;
     gross += std::abs(v);
   }
-  // What rounding alone can leave of a sum that is 0 is far below this share of its terms.
+  // If the true sum is 0, rounding leaves far less than this share of its terms.
   if (!(std::abs(volume) > 1e-12 * gross)) return {Reason::Kind::kFlat, 0, 0, 0};
   if (volume < 0) {
     ++result_.inside_out;

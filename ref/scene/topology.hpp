@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What of a mesh hangs together, what of it is closed, and which way round it faces. All in object space, once a mesh.
+// Components of a mesh: which triangles hang together, whether they are closed, and which way round they face. All in
+// object space, once a mesh.
 #pragma once
 
 #include <array>

@@ -33,7 +33,7 @@ struct Quaternion {
   double w = 1;
 };
 
-/// Of length 1; the identity for a quaternion of length 0.
+/// The quaternion scaled to length 1; the identity for one of length 0.
 Quaternion normalized(const Quaternion& q);
 
 /// The shorter way from a to b, at constant speed; u = 0 gives a and u = 1 gives b (or -b). Both of length 1.

@@ -85,7 +85,8 @@ void relative_intensities(std::vector<Light>& lights, const WorkingFrame& frame)
   if (frame.exponent == 0) return;
   const auto falling = std::count_if(lights.begin(), lights.end(), [](const Light& l) { return l.falls_off; });
   if (falling == 0 || static_cast<std::size_t>(falling) == lights.size()) return;
-  // A distance is 2^exponent times as long in the file. Of the two kinds the one that the scene's size favours stays.
+  // A distance is 2^exponent times as long in the file. The kind of lights that the scene's size favours stays as it
+  // is.
   const bool large = frame.exponent > 0;
   const double factor = std::ldexp(1.0, -2 * std::abs(frame.exponent));
   for (Light& l : lights)

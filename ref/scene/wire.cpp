@@ -92,7 +92,7 @@ void fields(Archive& ar, P& v) {
     ar(v.meshes, v.skins, v.nodes, v.tracks, v.start_time, v.camera, v.lights, v.frames, v.contents, v.notes, v.files);
 }
 
-// Of fixed size and without pointers: its bytes are its value.
+// Types of fixed size without pointers: their bytes are their value.
 template <typename T>
 constexpr bool kFlat = std::is_trivially_copyable_v<T>;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Where a scene's frames are computed: near the origin and of middling size, wherever the file puts the scene and
-// however long its unit is, so that doubles tell its positions apart and products of lengths neither vanish nor
-// overflow.
+// The space where a scene's frames are computed: the scene is near the origin and of middling size there, wherever the
+// file puts it and however long its unit is. So doubles tell its positions apart, and products of lengths neither
+// vanish nor overflow.
 #pragma once
 
 #include <vector>
@@ -32,8 +32,8 @@ glm::dvec3 working_origin(const SpaceBox& box);
 int working_exponent(const SpaceBox& box);
 
 /// Object-to-world maps of all nodes, in the working frame. `own`: of each node relative to its parent. Where the frame
-/// has an origin of its own, places of nodes are summed up in pairs of doubles, so that what lies close together far
-/// from the world's origin keeps all digits of the file's numbers.
+/// has an origin of its own, places of nodes are summed up in pairs of doubles. So objects that lie close together, far
+/// from the world's origin, keep all digits of the file's numbers.
 std::vector<Affine> placed(const RawScene& scene, const std::vector<Affine>& own, const WorkingFrame& frame);
 
 }  // namespace kage::scene

@@ -33,7 +33,7 @@ int side(const ChartEdge& e, const ChartPoint& p) {
   return d.x > 0 ? 1 : -1;
 }
 
-// What is added to the count on the way from p to q on a level or upright line.
+// Change of the count on the way from p to q on a level or upright line.
 int crossing(const ChartEdge& e, const ChartPoint& p, const ChartPoint& q) {
   const bool apart = p.y == q.y ? (e.a.y <= p.y) != (e.b.y <= p.y) : (e.a.x <= p.x) != (e.b.x <= p.x);
   return apart ? (side(e, q) - side(e, p)) / 2 * e.w : 0;
@@ -50,7 +50,7 @@ struct Cell {
     const std::int64_t size = std::int64_t{1} << log;
     return {low.x + ((i & 1U) != 0 ? size : 0), low.y + ((i & 2U) != 0 ? size : 0)};
   }
-  // Of two cells with one bound the smaller first: where parting does not help, that is known soonest.
+  // Between two cells with one bound, the smaller comes first: so it is soonest known where parting does not help.
   bool operator<(const Cell& o) const { return std::pair(bound, -log) < std::pair(o.bound, -o.log); }
 };
 
@@ -107,7 +107,7 @@ class Bound {
   }
 
   // The straight way from a point of reference to any point of the cell crosses an edge from its right to its left only
-  // if the point of reference is right of the edge's line. Of several points of reference the least bound holds.
+  // if the point of reference is right of the edge's line. The least bound over several points of reference holds.
   int bound(const Cell& cell) {
     std::array<ChartPoint, 4> at{};
     for (unsigned i = 0; i < 4; ++i) at[i] = cell.corner(i);

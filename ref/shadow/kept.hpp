@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What ShadowCache keeps: volumes as sets of faces, which depend on casters and light but not on the eye.
+// Data of ShadowCache: volumes as sets of faces, which depend on casters and light but not on the eye.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace kage {
 
-/// Of one light sample.
+/// Volumes of one light sample.
 struct KeptSample {
   struct Volume {
     WorldVolume volume;
@@ -29,7 +29,7 @@ struct ShadowCache::Data {
   /// Forget what does not hold for this frame: all if its faces are others, else what depends on vertices that moved.
   void take(const SceneFrame& frame, int limit, VolumeWay way);
 
-  /// What is kept of a sample, or an empty one.
+  /// The kept volumes of a sample, or an empty KeptSample.
   KeptSample& sample(std::size_t number, const ShadowCaster& caster);
 
   [[nodiscard]] EdgeTable& edges() { return *edges_; }

@@ -17,18 +17,18 @@ namespace kage {
 /// The corners of caps, with a place of each that most questions can be answered by.
 ///
 /// Let u be 2^-53 and m the largest coordinate of a place. A point light's places are corner - light, each coordinate
-/// off by a factor within 1 +- u, and turns are their determinant: six products of three, each within m^3 and off by
-/// less than 10 u m^3 with its roundings and sums. Together that is less than 2^6 u m^3.
+/// off by a factor within 1 +- u. Turns are their determinant: six products of three, each within m^3 and off by less
+/// than 10 u m^3 with its roundings and sums. Together that is less than 2^6 u m^3.
 ///
-/// Of a directional light, turned so that z is the largest coordinate of its direction l, places are (x - s z, y - t z)
-/// with s and t the quotients lx / lz and ly / lz, rounded. With the true corners' normal n, twice the area of the
-/// triangle that the exact such places make is nx s + ny t + nz, and n . l / lz but for u (|nx| + |ny|), which is at
-/// most 16 u m^2, m now being the largest coordinate of a corner. A place is off by less than 3.1 u m, a difference of
-/// two, which is within 4 m, by less than 10.4 u m, a product of differences by less than 100 u m^2, and the area by
-/// less than 233 u m^2. Together that is less than 2^8 u m^2.
+/// A directional light is turned so that z is the largest coordinate of its direction l. Its places are
+/// (x - s z, y - t z), with s and t the quotients lx / lz and ly / lz, rounded. Let n be the true corners' normal and m
+/// now the largest coordinate of a corner. Twice the area of the triangle of the exact such places is nx s + ny t + nz.
+/// It is n . l / lz up to u (|nx| + |ny|), which is at most 16 u m^2. A place is off by less than 3.1 u m. A
+/// difference of two is within 4 m and off by less than 10.4 u m, a product of differences by less than 100 u m^2, and
+/// the area by less than 233 u m^2. Together that is less than 2^8 u m^2.
 ///
-/// What is not beyond twice these bounds, or where m is so large or small that a product may leave the range of
-/// doubles, is left to light_turn().
+/// light_turn() decides turns that are not beyond twice these bounds. It also decides where m is so large or small that
+/// a product may leave the range of doubles.
 class LightCorners {
  public:
   /// Refers to `frame`.

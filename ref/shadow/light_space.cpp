@@ -105,7 +105,7 @@ ChartPoint LightSpace::on_chart(const Flat& f) const {
   return {even(f.x, middle_.x), even(f.y, middle_.y)};
 }
 
-// What of an edge lies before the light and not far outside the cube's side; false if nothing.
+// Cuts an edge down to its part that lies before the light and not far outside the cube's side; false if there is none.
 bool LightSpace::clip(glm::dvec3& a, glm::dvec3& b) const {
   if (charts_ == 1) return true;
   for (int i = 0; i < 4; ++i) {

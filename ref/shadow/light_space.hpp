@@ -32,8 +32,9 @@ class LightSpace {
   /// Refers to `frame`. `caps`: all that will be asked about.
   LightSpace(const SceneFrame& frame, const LightPoint& light, std::span<const CapFace> caps);
 
-  /// The most of `caps` that one ray of light meets, whose sides are `sides`. high is an upper bound, as close as it
-  /// takes to tell whether it is beyond `target`, or, if that is below 0, as close as can be (bound_count()).
+  /// The most of `caps`, whose sides are `sides`, that one ray of light meets. `high` is an upper bound
+  /// (bound_count()). It is only as close as it takes to decide whether the number exceeds `target`; if `target` is
+  /// below 0, as close as can be.
   [[nodiscard]] CountRange count(std::span<const CapFace> caps, std::span<const SideEdge> sides, int target) const;
 
   /// A rectangle round a face. Faces whose rectangles are apart have no ray of light in common.

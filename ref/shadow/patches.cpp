@@ -43,7 +43,7 @@ class Grid {
         const std::size_t n = number(x, y);
         for (std::uint32_t k = first_[n]; k < first_[n] + count_[n]; ++k) {
           const std::uint32_t o = caps_[k];
-          // Of the cells that both have the first sees to it.
+          // Two boxes are tested in the first cell that both have.
           if (x != std::max(own.x0, cells_[o].x0) || y != std::max(own.y0, cells_[o].y0)) continue;
           if (boxes_[o].overlaps(boxes_[i]) && test(o)) return true;
         }
@@ -172,7 +172,7 @@ class Patches {
     return !surely_parts(a, b) && !surely_parts(b, a) && !parts(a, b) && !parts(b, a);
   }
 
-  // What most pairs are told apart by, with fewer surprises for the processor than parts() has.
+  // A quick test that decides most pairs, with fewer branches for the processor to guess than parts() has.
   [[nodiscard]] bool surely_parts(std::uint32_t a, std::uint32_t b) const {
     for (std::uint32_t i = 0; i < corners_.size(a); ++i) {
       bool outside = true;

@@ -11,7 +11,7 @@
 
 namespace kage {
 
-/// What of a frame's faces lies in the picture.
+/// The parts of a frame's faces that lie in the picture, which may receive shadow.
 class Receivers {
  public:
   /// `boxes`: of its components. `near`: nothing that is seen lies nearer. `translucent`: whether translucent faces are
@@ -20,8 +20,8 @@ class Receivers {
             bool translucent);
 
   /// By component: false only if its shadow, without end, meets nothing that is seen. A shadow is left out if it lies
-  /// beyond one of these planes, all of which have all that is seen on one side: those of the picture, of the box round
-  /// what is seen, and of the same as the light sees it.
+  /// beyond a plane that has all seen parts on its other side. These planes are tried: those of the picture, those of
+  /// the box round the seen parts, and those of the box round them as the light sees it.
   [[nodiscard]] std::vector<bool> reached(const LightPoint& light) const;
 
  private:

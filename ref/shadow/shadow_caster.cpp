@@ -23,8 +23,8 @@ double furthest(const glm::dvec3& from, std::span<const glm::dvec3> points) {
   return std::sqrt(most);
 }
 
-// The points among which is the furthest from each of `from`: whatever is nearer to the first of these than the
-// furthest from it, by twice as much as lies between them, is nearer to the others too.
+// Points that include, for each of `from`, the point furthest from it. A point is left out if, seen from from[0], it is
+// nearer than the furthest by more than twice the spread of `from`: then it is nearer for the others too.
 std::vector<glm::dvec3> far_ones(std::span<const LightPoint> from, std::span<const glm::dvec3> points) {
   double spread = 0;
   for (const LightPoint& l : from) spread = std::max(spread, length(l.position - from[0].position));
@@ -69,7 +69,7 @@ std::vector<ShadowCaster> ShadowCaster::of_points(const SceneFrame& frame, std::
                                                   std::span<const glm::dvec3> near_corners, double extrusion) {
   std::vector<ShadowCaster> casters;
   casters.reserve(points.size());
-  // What is edge-on is the scene's matter, not the camera's.
+  // The bound for edge-on faces follows from the scene, not from the camera.
   if (points[0].directional) {
     SpaceBox box;
     for (const glm::dvec3& p : frame.vertices) box.add(p);

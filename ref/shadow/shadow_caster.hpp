@@ -2,9 +2,9 @@
 //
 // One point of a light, and how a frame's faces stand to it.
 //
-// A volume's far end is further from the light than everything drawn and than the picture's corners where depth begins,
-// hence than every point between these and a surface; so it hides no pixel and is never a span. It counts where it is
-// cut there.
+// A volume's far end is further from the light than everything drawn and than the picture's corners where depth begins.
+// Hence it is further than every point between these and a surface, hides no pixel and is never a span. Its cut where
+// depth begins counts.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -16,7 +16,7 @@
 
 namespace kage {
 
-/// Of each component the box round its vertices.
+/// For each component the box round its vertices.
 std::vector<SpaceBox> component_boxes(const SceneFrame& frame);
 
 /// A plane of a face, as far as lights ask about it.
@@ -35,7 +35,7 @@ class ShadowCaster {
   ShadowCaster(const SceneFrame& frame, const LightPoint& light, std::span<const glm::dvec3> near_corners,
                double extrusion);
 
-  /// Those of all points of a light, in order. What is far from one of them is far from all, so that not every vertex
+  /// The casters of all points of a light, in order. A vertex far from one of them is far from all, so not every vertex
   /// is looked at for each.
   static std::vector<ShadowCaster> of_points(const SceneFrame& frame, std::span<const LightPoint> points,
                                              std::span<const glm::dvec3> near_corners, double extrusion);

@@ -27,13 +27,13 @@ class VolumeCaster {
   /// Call `sink` with every volume of a light sample, in order of their first casters. No ray of light meets more than
   /// 2^dsf_bits - 1 caps of a volume. `sample`: its number.
   /// With one bit a convex component with the light outside is a volume, and so is each patch (make_patches()) of
-  /// another. With more, all casters are one volume if bound_count() says that they may be; else components are put
-  /// together, each to the first volume that it fits in, and those that fit in none by themselves are first parted into
+  /// another. With more bits all casters are one volume if bound_count() allows it. Else components are put together,
+  /// each in the first volume that it fits in. A component that does not fit in a volume by itself is first parted into
   /// patches.
   void make(std::size_t sample, const ShadowCaster& caster, const VolumeSink& sink);
 
  private:
-  /// What goes whole into a volume.
+  /// Caps that go into a volume as a whole: those of a component or a patch.
   struct Part {
     std::vector<CapFace> caps;
     std::uint32_t component = 0;

@@ -4,7 +4,7 @@
 //
 // A volume is the sum of its faces' prisms. Each face is turned to the light and is a cap; its prism goes from there
 // away from the light to a far end. Sides of two prisms at one edge cancel where the faces go on over it, and add up
-// where they lie on the same side of it, so an edge has one side with a weight: how often the caps have it in one
+// where they lie on the same side of it. So an edge has one side with a weight: how often the caps have it in one
 // direction, less how often in the other. A point counts as many prisms as it lies in, which is the number of caps
 // between it and the light. [Matsumoto, section 2, has volumes of weight 1 that cover no point twice.]
 #pragma once
@@ -58,7 +58,7 @@ class EdgeTable {
   }
 
  private:
-  // Of each corner the edge to the next: twice its number, plus 1 if it goes from the greater vertex to the lesser.
+  // For each corner the edge to the next: twice its number, plus 1 if it goes from the greater vertex to the lesser.
   std::vector<std::uint32_t> half_edges_;
   std::vector<std::uint32_t> first_;  // of each edge's polygons
   std::vector<std::uint32_t> polygons_;

@@ -54,7 +54,7 @@ std::string names(const std::vector<Target>& targets) {
   return text;
 }
 
-/// What KAGE_SIMD asks for, or the best.
+/// The target that KAGE_SIMD names, or the best.
 Target asked_for() {
   const std::vector<Target> here = available();
   const char* const name = std::getenv("KAGE_SIMD");

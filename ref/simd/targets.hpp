@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which instruction set the vector kernels run on. Kernels are compiled for several (Highway calls each a target), and
-// every call of a kernel goes through KAGE_DISPATCH, which takes the one that is in use: the best that this CPU has, or
-// the one that the environment variable KAGE_SIMD names. No result depends on it; tests and speed measurements do.
+// Which instruction set the vector kernels run on. Kernels are compiled for several; Highway calls each a target. Every
+// call of a kernel goes through KAGE_DISPATCH, which takes the target in use: the best that this CPU has, or the one
+// that the environment variable KAGE_SIMD names. No result depends on it; tests and speed measurements do.
 //
 // A file with kernels includes this before any header of Highway, because the macros below decide which targets exist,
 // and must be the same in all files. HWY_COMPILE_ALL_ATTAINABLE, which the build defines, adds the targets that a
@@ -30,8 +30,8 @@ struct Target {
 /// All that this build has and this CPU can run, best first; at least one.
 std::vector<Target> available();
 
-/// The one in use. The first call of this or of any kernel chooses it; until one has succeeded each of them throws
-/// Error, in one line, if KAGE_SIMD names an instruction set that this build or this CPU does not have. An empty
+/// The target in use. The first call of this or of any kernel chooses it. If KAGE_SIMD names an instruction set that
+/// this build or this CPU does not have, each such call throws Error, in one line, until one has succeeded. An empty
 /// KAGE_SIMD counts as none.
 Target in_use();
 

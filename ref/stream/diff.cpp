@@ -53,7 +53,7 @@ class GroupReader {
   }
 
  private:
-  /// Of the next token; 0, which is no kind, where there is none.
+  /// Kind of the next token; 0, which is no kind, where there is none.
   [[nodiscard]] Kind kind() const {
     const Words token = walk_.peek();
     return token.empty() ? Kind{} : kind_of(token[0], walk_.level());
@@ -240,7 +240,7 @@ std::string reason_of(const StreamDiff& d) {
   const int common = std::min(d.frames_a, d.frames_b);
   const int lone = std::abs(d.frames_a - d.frames_b);
   if (lone != 0) parts.push_back(fmt::format("A has {} and B {}", counted(d.frames_a, "frame"), d.frames_b));
-  // Of those that both have: that the others differ is said.
+  // Only frames that both have: the text above already says that the others differ.
   if (const auto unlike = d.different_frames - static_cast<std::uint64_t>(lone); unlike != 0)
     parts.push_back(fmt::format("{} of {} frames {}{}", unlike, common, lone != 0 ? "that both have " : "",
                                 unlike == 1 ? "differs" : "differ"));

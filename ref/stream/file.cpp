@@ -36,8 +36,8 @@
 namespace kage {
 namespace {
 
-/// What CONF has: ACTIVE only of a core with a front end, so that other files have the bytes that they had before there
-/// was one.
+/// Text of section CONF. It has ACTIVE only for a core with a front end, so that other files have the same bytes as
+/// before there was one.
 std::string conf_text(const Config& config) {
   std::string text;
   for (const ParamInfo& p : kParams)

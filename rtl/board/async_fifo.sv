@@ -5,9 +5,9 @@
 // Handshake: valid/ready on both sides, each at its own clock; in_ready_o and out_valid_o depend on registers only. A
 // word that is offered stays until it is taken.
 // Crossing: each side sends the other its pointer in Gray code, in which one bit changes at a time, through a
-// synchronizer. A pointer that is caught in the middle of a change is the old or the new one, so a side that sees an
-// old one believes that less is free, or less has come, than is true. The words themselves are read two clocks or more
-// after they were written.
+// synchronizer. A pointer caught in the middle of a change reads as the old or the new one. A side that sees an old one
+// believes that less is free, or less has come, than is true. The words themselves are read two clocks or more after
+// they were written.
 // Reset: at both sides at once, for as long as both are in it; each may leave it when it likes. Whoever resets one side
 // alone loses words.
 // Capacity: DEPTH words, a power of two, at least 4, and one more in the output's register. Latency: a clock of the
@@ -39,12 +39,12 @@ module async_fifo #(
     `KAGE_ILLEGAL("DEPTH must be a power of two and at least 4")
   end
 
-  // Of words that are read and written in the same clock none is ever used.
+  // A word that is read in the clock of its own writing is never used.
   (* no_rw_check, rw_addr_collision = "no", ramstyle = "no_rw_check" *)
   logic [BITS-1:0] mem[DEPTH];
 
-  // Words that have come, and words that have been taken out of mem, modulo 2 DEPTH: as numbers and in Gray code. What
-  // the other side has seen of the Gray code is some clocks old.
+  // Words that have come (wr), and words that have been taken out of mem (rd), modulo 2 DEPTH: as numbers and in Gray
+  // code. The copy of the Gray code on the other side (_seen) is some clocks old.
   logic [PtrBits-1:0] wr_q, wr_d, wr_gray_q, wr_seen, rd_q, rd_d, rd_gray_q, rd_seen;
 
   // ---- the input's side --------------------------------------------------------------------------------------------

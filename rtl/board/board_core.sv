@@ -13,9 +13,9 @@
 // MEMORY 0: block RAM of MEMORY_WORDS. 1: an SDRAM, of ROW_BITS, COLUMN_BITS and BANK_BITS.
 // SCREEN 0: no screen; the core's pixels are taken at once. 1: a screen of H_... and V_....
 // CAPTURE 0: no line_capture, so a line that is wrong is known by its signature alone; 1: its pixels can be read.
-// LEDs, high is on: 0 the core's clock runs (blinks), 1 the player is in a list, 2 lines were compared and all were
-//   right, 3 one was wrong, 4 the screen had to repeat a colour, 5 no host has greeted since reset, 6 the memory is set
-//   up, 7 the core's interrupt.
+// LEDs, high is on. 0: the core's clock runs (blinks). 1: the player is in a list. 2: lines were compared and all were
+//   right. 3: one was wrong. 4: the screen had to repeat a colour. 5: no host has greeted since reset. 6: the memory is
+//   set up. 7: the core's interrupt.
 // Latency, throughput: a frame moves at the pace of the slowest of memory, core and screen; each module says its own.
 // Cost: docs/boards.md.
 `default_nettype none

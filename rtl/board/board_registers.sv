@@ -8,8 +8,9 @@
 //   own registers are written whole.
 //   The lowest two bits of an address choose nothing. A read of the core that is under way when a write holds the core
 //   answers SLVERR.
-// Latency, with the first clock and the answer's: 4 clocks for a write, 3 for a read, 4 of a RAM's word; for the core's
-//   registers 6 and 5 where the core answers in the next clock. Throughput: one write and one read in that time.
+// Latency, with the first clock and the answer's: 4 clocks for a write, 3 for a read, 4 for a read of a RAM's word. The
+//   core's registers take 6 and 5 where the core answers in the next clock. Throughput: one write and one read in that
+//   time.
 // PIXELS 0: there is no line_capture, and no word of PIXELS.
 // Cost: about 300 flip-flops.
 `default_nettype none

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A picture's pixels and syncs become the three words of a DVI 1.0 link, ready for a ten to one serializer.
 //
-// Handshake: none; a pixel a clock. rgb_i has red in bits 7..0, green in 15..8, blue in 23..16, as m_axis has.
-// words_o: channel 0 in bits 9..0 (blue, and hsync and vsync as its control bits 0 and 1), channel 1 in 19..10 (green),
-// channel 2 in 29..20 (red); the control bits of these two are 0. Each word goes out bit 0 first.
+// Handshake: none; a pixel a clock. Colour: rgb_i has red in bits 7..0, green in 15..8, blue in 23..16, as m_axis has.
+// Words: words_o has channel 0 in bits 9..0 (blue, and hsync and vsync as its control bits 0 and 1), channel 1 in
+// 19..10 (green), channel 2 in 29..20 (red). The control bits of channels 1 and 2 are 0. Each word goes out bit 0
+// first.
 // Latency: 2 clocks. Throughput: a pixel a clock.
 // Cost: three tmds_encoder: 72 flip-flops, 193 LUTs of four inputs.
 `default_nettype none

@@ -3,8 +3,8 @@
 // not the expected one, to see which pixel and channel it is.
 //
 // Takes: a pixel that moves, beat_i. It is listened to and never held up. line_i chooses the line, by its number since
-//   clear_i, modulo 65536. Of a line with more than PIXELS pixels the first ones are kept; all are counted, to 65535.
-//   More lines than 65536 make the chosen one come again, which counts as more pixels of it. A pixel that moves in the
+//   clear_i, modulo 65536. A line with more than PIXELS pixels keeps its first ones; all are counted, to 65535. More
+//   lines than 65536 make the chosen one come again, which counts as more pixels of it. A pixel that moves in the
 //   clock of clear_i belongs to no line.
 // Host's port: a read's word comes a clock after its address: colour in the lowest bits, TLAST in bit 24, TUSER in bit
 //   25.

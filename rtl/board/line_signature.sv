@@ -102,7 +102,7 @@ module line_signature #(
       if (beat_q && last_q) place_q <= next_place == wrap_i ? '0 : next_place;
       if (kept_q) lines_o <= lines_o + 16'd1;
       compared_q <= ended_q && check_i && place_there;
-      // What comes out of the RAM is late in its clock: the comparison has the rest of it, counting a clock of its own.
+      // The RAM's output comes late in its clock. The comparison takes the rest of it; counting has a clock of its own.
       differs_q  <= compared_q && expected != wanted_q;
       if (differs_q) begin
         if (mismatches_o == '0) mismatch_place_o <= differing_place_q;

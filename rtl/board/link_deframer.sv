@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Takes the frames of docs/link.md out of a stream of bytes: flags, escapes, length and CRC-16.
 //
-// Handshake: a byte comes with in_valid_i, and is always taken. byte_valid_o marks a byte of a body, at place
-//   byte_at_o, while it is less than 256; end_o marks the end of a body that is not empty. Both are of one clock and
-//   wait for nobody.
-// A body's bytes, its CRC's among them, are told before anybody knows whether they are right: at end_o good_o says so,
-//   and size_o is their number, 257 for all that is more than 256. good_o: 4 to 256 bytes, the CRC is right, and no
+// Handshake: a byte comes with in_valid_i, and is always taken. Output byte_valid_o marks a byte of a body, at place
+//   byte_at_o, while that is less than 256. Output end_o marks the end of a body that is not empty. Both last one
+//   clock and wait for nobody.
+// The bytes of a body, its CRC's among them, come out before it is known whether they are right. At end_o, good_o says
+//   so, and size_o is their number, 257 for more than 256. A good body has 4 to 256 bytes and the right CRC, and no
 //   escape stood before the flag.
 // Latency: 1 clock. Throughput: a byte a clock.
 // Cost: 65 LUT and 46 flip-flops of an iCE40, the CRC of a byte among them.

@@ -2,12 +2,13 @@
 // The board's end of what the host sends (docs/link.md): takes the frame that is next in sequence, keeps it until it
 // has been executed, and says what an ACK says.
 //
-// Handshake: a byte comes with rx_valid_i, and is always taken (rx_ready_o is high out of reset). head_valid_o offers
-//   the oldest frame that was kept, head_words_o the number of its words; its bytes are read at rd_at_i, as of a RAM, a
-//   clock later; head_done_i, while it is offered, gives its slot back.
-// answer_o is high for a clock after the end of each frame, when a slot gets free, and after reset: an ACK is due. The
-//   ACK's fields are right in any clock. ack_taken_i marks the clock in which an ACK takes them, and clears `dropped`:
-//   a frame was damaged, or out of turn, and none has been kept since.
+// Handshake: a byte comes with rx_valid_i, and is always taken (rx_ready_o is high out of reset).
+// Frames: head_valid_o offers the oldest frame that was kept, head_words_o is its number of words. Its bytes are read
+//   as from a RAM: rd_at_i is the address, the byte comes a clock later. While a frame is offered, head_done_i gives
+//   its slot back.
+// Answers: answer_o is high for a clock after the end of each frame, when a slot gets free, and after reset: an ACK is
+//   due. The ACK's fields are right in any clock. Input ack_taken_i marks the clock in which an ACK takes them, and
+//   clears `dropped`: a frame was damaged, or out of turn, and none has been kept since.
 // Slots: SLOTS frames of 256 bytes. A frame is written to the free slot as it comes; it is kept (committed) when its
 //   CRC and its form are right and its sequence is the expected one. When no slot was free at its first byte it is not
 //   written; if it would have been kept, overrun_o is set.

@@ -5,21 +5,21 @@
 // without its lowest bit}. The chip runs with bursts of two columns, so a word is a command; one row is open at a
 // time, and stays open until another is wanted or a refresh is due.
 //
-// Handshake: valid/ready at the ports for words to write and for blocks to read; wr_ready_o and req_ready_o depend on
-// registers and on the other port's valid: words to write and blocks to read alternate while both wait. What was
-// accepted first is done first, so a block brings what was written before. A block of BURST words, aligned, comes in
-// order at rd_valid_o, which has no ready: who asks has room. Neither port is ready before ready_o, which is when the
-// chip has started (T_INIT after reset, and some 100 clocks).
+// Handshake: valid/ready at the ports for words to write and for blocks to read. Each port's ready, wr_ready_o and
+// req_ready_o, depends on registers and on the other port's valid: words to write and blocks to read alternate while
+// both wait. Requests are done in the order of acceptance, so a block brings every word that was written before it. A
+// block of BURST words, aligned, comes in order at rd_valid_o, which has no ready: who asks has room. Neither port is
+// ready before ready_o, which is when the chip has started (T_INIT after reset, and some 100 clocks).
 // Refresh: one is due every RefreshClocks, by a counter that never waits, and goes before any word or block that was
-// not accepted yet. It comes at most Late clocks after it is due: the command before it (T_RFC the longest), T_RAS or
-// T_WR until the open row may be closed, T_RP, T_RCD, a block of 2 x BURST clocks (or CAS_LATENCY + 3 until the bus
-// is free for a word), T_RAS and T_WR again, T_RP: 61 clocks at 100 MHz, added up as if none overlapped.
-// RefreshClocks is such that a row sees its next refresh within T_REF even so: 2^ROW_BITS x RefreshClocks + Late
+// not accepted yet. It comes at most Late clocks after it is due: 61 clocks at 100 MHz, added up as if none overlapped.
+// First are the command before it (T_RFC the longest), T_RAS or T_WR until the open row may be closed, T_RP and T_RCD.
+// Then a block of 2 x BURST clocks (or CAS_LATENCY + 3 until the bus is free for a word), T_RAS and T_WR again, and
+// T_RP. RefreshClocks is such that a row sees its next refresh within T_REF even so: 2^ROW_BITS x RefreshClocks + Late
 // clocks.
 // Pins: all outputs are flip-flops (those of cke and cs are constant); dq_oe_o says when dq_o is driven. READ_DELAY:
 // clocks from the one in which a read stands on the pins to the one in which its first half stands at dq_i. It is
-// CAS_LATENCY where the chip takes commands at the end of their clock, one less where its clock is turned round, and
-// one more for each register between outputs and pads, or between pads and dq_i.
+// CAS_LATENCY where the chip takes commands at the end of their clock, and one less where the chip's clock is inverted.
+// Each register between outputs and pads, or between pads and dq_i, adds one.
 // Latency: a block whose row is open brings its first word READ_DELAY + 4 clocks after it was accepted; another row
 // costs T_RP + T_RCD more, and the rest of T_RAS or T_WR.
 // Throughput: a word in two clocks, written or read, while they are in one row; a block after another in another row

@@ -2,10 +2,10 @@
 // A frame memory in an SDRAM: words are written one by one and read as runs, in the core's clock, while the chip has
 // its own. Between the clocks lie two async_fifos, nothing else.
 //
-// Handshake: valid/ready at the ports for words to write, for runs to read ({address, words}, words at least 1, from
-// any address on, round the end of the memory), and for the words of a run, which come in order. A run is accepted
-// when the last word of the former has left. All ready outputs depend on registers, wr_ready_o on whether a block is
-// asked for too.
+// Handshake: valid/ready at the ports for words to write, for runs to read, and for the words of a run, which come in
+// order. A run is {address, words}: words is at least 1, from any address on, round the end of the memory. It is
+// accepted when the last word of the run before has left. All ready outputs depend on registers, and wr_ready_o also on
+// whether a block is asked for.
 // Order: words to write and blocks to read go through one FIFO. So a run brings every word that was accepted before
 // the run was, or in the same clock; a word that is accepted while a run goes on is in it or not.
 // Room: a block of BURST words is asked for only when the FIFO of words read has room for it beside those under way.

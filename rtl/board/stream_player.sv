@@ -4,9 +4,9 @@
 // List: a word N, the number of words of a frame in its lower 24 bits, then these words, then the next frame; N = 0
 //   ends the list. From the memory the list begins at address_i. With loop_i it begins anew behind its end, and from
 //   the link the end is passed over; a list without a frame ends at once.
-// Commands: start_i, for one clock while playing_o is low; stop_i, for one clock: no frame begins after the one at
-//   hand, and from the link, where a frame at hand may never be whole, the rest of it has to come or the core is held
-//   in reset. direct_i, loop_i and paced_i stay as they are while playing_o is high.
+// Commands: start_i, for one clock while playing_o is low. After stop_i, for one clock, no frame begins behind the one
+//   at hand. From the link a frame at hand may never be whole: its rest has to come, or the core is held in reset.
+//   Inputs direct_i, loop_i and paced_i stay as they are while playing_o is high.
 // Pace: with paced_i a frame begins when the screen has asked for one, without, at once. A request is kept until a
 //   frame begins, and two are as good as one.
 // Handshake: valid/ready on all ports; m_axis is AXI4-Stream with BEAT_WORDS words a beat, the first one lowest, and

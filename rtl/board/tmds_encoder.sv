@@ -2,8 +2,8 @@
 // One channel of DVI 1.0: eight bits of colour, or two of control in blanking, become ten for the cable (TMDS).
 //
 // Handshake: none; a word a clock. word_o goes out bit 0 first.
-// Colour: of the exclusive-or chain and its complement the one with fewer changes is taken (bit 8 says which), and then
-// the word or its complement, so that as many ones as zeros have gone out (bit 9 says which). The running disparity,
+// Colour: the word is the chain of exclusive-ors or its complement, whichever has fewer changes (bit 8 says which). It
+// goes out as it is or inverted, so that as many ones as zeros have gone out (bit 9 says which). The running disparity,
 // ones less zeros since blanking, is even and lies in -8 .. 8; in blanking it is 0 again.
 // Control: one of four fixed words that no colour has.
 // Latency: 2 clocks. Throughput: a word a clock.
@@ -52,8 +52,8 @@ module tmds_encoder (
   end
 
   // ---- the second: as many ones as zeros ----
-  // Halves of the standard's numbers, all of which are even: more_q of the disparity, excess of the ones of eight
-  // bits less their zeros, which is their ones less 4.
+  // The standard's numbers are all even, so halves are kept: more_q is half the disparity. Signal excess is half
+  // the difference of ones and zeros in eight bits, which is their ones less 4.
   logic signed [3:0] more_q, more_d, excess, step;
   logic flip, even;
   assign excess = $signed(ones(chain_q[7:0]) - 4'd4);

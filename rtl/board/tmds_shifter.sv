@@ -2,10 +2,10 @@
 // Ten to one in steps of two bits: the three words of a DVI link and its clock, for output registers of double data
 // rate.
 //
-// Handshake: none. words_i changes with pix_clk_i and comes from flip-flops. pairs_o changes with bit_clk_i, which is
-// five times as fast: bits 1..0 are of channel 0, 3..2 of channel 1, 5..4 of channel 2, 7..6 of the link's clock. Of a
-// pair the lower bit goes out first, at the rising edge; the output register is the board's. The link's clock is high
-// for the first five bits of a word.
+// Handshake: none. Input words_i changes with pix_clk_i and comes from flip-flops. Output pairs_o changes with
+// bit_clk_i, which is five times as fast: bits 1..0 are of channel 0, 3..2 of channel 1, 5..4 of channel 2, 7..6 of the
+// link's clock. The lower bit of a pair goes out first, at the rising edge; the output register is the board's. The
+// link's clock is high for the first five bits of a word.
 // Crossing: the one crossing in kage without an async_fifo. Both clocks come from one PLL, and each edge of pix_clk_i
 // is one of bit_clk_i. A path from pix_clk_i to bit_clk_i must take less than a clock of bit_clk_i: tools/fpga holds it
 // against that, other tools need both clocks constrained as related. A flip-flop that toggles with pix_clk_i is watched

@@ -3,15 +3,15 @@
 //
 // Handshake: valid_o is high for one clock with a byte, and nothing holds the byte back: whoever cannot take it loses
 //   it. The line changes at any time; two flip-flops stand before its first use.
-// Timing: a phase accumulator counts bits, so CLOCK_HZ need not be a multiple of BAUD. CLOCK_HZ must be at least
-//   4 x BAUD. A bit is read within one clock of its middle, counted from the start bit's edge, whatever the phase
-//   of the line: half a clock each way for the moment at which the edge is seen, and half for the moment of reading.
-//   The stop bit, read at 9.5 bits, ends 10 of the sender's bits behind the edge and begins 9 behind it. A sender's
-//   bits may therefore differ by (0.5 - BAUD / CLOCK_HZ) / 10, less 0.03 % for the accumulator's rounding: 2.4 % at 4
-//   clocks a bit, 3.7 % at 8.33, 4.9 % at many.
-// What is no byte: a low shorter than half a bit is ignored. After a stop bit that is low (framing_error_o, one clock)
-//   the byte is dropped, and the line must be high before a start bit counts; a break is one framing error. After reset
-//   the line must be high first, too.
+// Timing: a phase accumulator counts bits, so CLOCK_HZ need not be a multiple of BAUD. CLOCK_HZ must be at least 4 x
+//   BAUD. A bit is read within one clock of its middle, counted from the start bit's edge, whatever the phase of the
+//   line. Half a clock each way is for the moment at which the edge is seen, and half for the moment of reading. The
+//   stop bit, read at 9.5 bits, ends 10 of the sender's bits behind the edge and begins 9 behind it. A sender's bits
+//   may therefore differ by (0.5 - BAUD / CLOCK_HZ) / 10, less 0.03 % for the accumulator's rounding: 2.4 % at 4 clocks
+//   a bit, 3.7 % at 8.33, 4.9 % at many.
+// No byte: a low shorter than half a bit is ignored. After a stop bit that is low (framing_error_o, one clock) the byte
+//   is dropped, and the line must be high before a start bit counts; a break is one framing error. After reset the line
+//   must be high first, too.
 // Latency: three clocks from the middle of the stop bit. Throughput: the line's; the next start bit may come nearly
 //   half a bit early.
 // Cost: 21 LUT and 20 flip-flops of an iCE40 for 3 Mbaud at 12 MHz, 32 and 32 at 25 MHz, 36 and 36 for 115,200 baud

@@ -2,9 +2,9 @@
 // Sends bytes on a serial line: 8 data bits, lowest first, no parity, one stop bit (8N1).
 //
 // Handshake: valid/ready; ready_o depends on registers only. tx_o is a flip-flop, high in reset and between bytes.
-// Timing: a phase accumulator counts bits, so CLOCK_HZ need not be a multiple of BAUD. Of a byte, the edge at the end
-//   of n bits comes less than a clock late, and never early but for the accumulator's rounding (1/4096 of a bit's
-//   length).
+// Timing: a phase accumulator counts bits, so CLOCK_HZ need not be a multiple of BAUD. The edge at the end of a
+//   byte's first n bits comes less than a clock late. It is never early, but for the accumulator's rounding (1/4096
+//   of a bit's length).
 // Latency: 1 clock from a byte's taking to its start bit. Throughput: 10 bits a byte, rounded up to whole clocks.
 // Cost: 24 LUT and 15 flip-flops of an iCE40 for 3 Mbaud at 12 MHz, 35 and 26 at 25 MHz, 39 and 30 for 115,200 baud
 //   at 100 MHz.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From the core's m_axis to a screen that waits for nobody: a FIFO of two lines (of the screen, or of WIDTH pixels if
-// that is less) between the clocks, a video mode's timing, and what is shown and counted when a pixel comes too late.
+// From the core's m_axis to a screen that waits for nobody. A FIFO of two lines (of the screen, or of WIDTH pixels if
+// that is less) lies between the clocks. The module makes a video mode's timing, and chooses and counts what is shown
+// when a pixel comes too late.
 //
 // Handshake: the port of pixels is AXI4-Stream video, valid/ready: TUSER on a frame's first pixel, TLAST on a line's
 // last. Ready is the FIFO's free place and nothing else, so the core rests while the screen is in blanking. Requests
@@ -11,20 +12,21 @@
 // another.
 // Shown: a frame begins at the screen's first pixel, if its TUSER waits there; what comes before TUSER is dropped, and
 // a TUSER waits for the next screen. The picture lies top left. Right of a line's TLAST and below the frame's last line
-// (lines_i of them; the core's clock takes lines_i with TUSER) is BORDER. What is wider or higher than the screen is
-// dropped; the rest of a wide line must pass, a pixel a clock, before the next line begins, or that one runs short.
+// (lines_i of them; the core's clock takes lines_i with TUSER) BORDER is shown. Pixels beyond the screen's right or
+// lower edge are dropped. The rest of a wide line must pass, a pixel a clock, before the next line begins, or that one
+// runs short.
 // Underrun: where a pixel is not there in time, the last colour shown is repeated to the picture's right edge, which is
 // that of the line that came whole last (at first the screen's). The pixels that come late are dropped, up to and with
 // the line's TLAST; lines whose turn passes meanwhile are shown in that colour too, and are owed likewise. The first
 // line that begins with nothing owed is shown again. Where the last line is late the pixel side has not seen that the
-// frame ended, and the lines below are shown so too. Where no frame waits at the screen's first pixel, but one was
-// shown before, the frame is late: the last colour covers the place of the picture shown last (down to its last line
-// that had a pixel in time), and the next screen tries again.
-// Counted, in the core's clock, all modulo 2^16: frames_shown_o screens that began a frame,
-// late_frames_o those that had none to begin, underrun_frames_o late ones and shown ones in which a line ran short,
-// underrun_lines_o the lines that ran short in shown ones (late frames count none). They rise a few clocks after
-// vertical blanking begins. led_o, in the pixel's clock, is high for 2^LED_BITS - 1 clocks after each line that ran
-// short and each late frame.
+// frame ended, and the lines below are shown so too. A frame is late if none waits at the screen's first pixel, but one
+// was shown before. The last colour then covers the place of the picture shown last (down to its last line that had a
+// pixel in time), and the next screen tries again.
+// Counted, in the core's clock, all modulo 2^16: frames_shown_o, screens that began a frame; late_frames_o, screens
+// that had none to begin. Output underrun_frames_o counts late frames, and shown ones in which a line ran short. Output
+// underrun_lines_o counts the lines that ran short in shown frames (late frames count none). They rise a few clocks
+// after vertical blanking begins. Output led_o, in the pixel's clock, is high for 2^LED_BITS - 1 clocks after each line
+// that ran short and each late frame.
 // Before the first frame all is BORDER and nothing counts.
 // Reset: at both sides at once, as async_fifo has it. A frame that it cuts is gone; the next TUSER begins the next.
 // Latency: from the FIFO's output to rgb_o 2 clocks. Throughput: a pixel a clock of the slower side.
@@ -120,7 +122,7 @@ module video_out #(
       .out_data_o (line_word)
   );
 
-  // What is done with a word depends on its flags, and a block RAM's output comes late in a clock: registers.
+  // A word's flags decide what is done with it, and a block RAM's output comes late in its clock: so it is registered.
   skid_buffer #(
       .BITS(WordBits)
   ) u_head (
@@ -161,9 +163,9 @@ module video_out #(
       .blank_start_o(blank_start)
   );
 
-  // Of the frame on the screen: it has begun and its end has not come; or there was none to begin.
+  // The frame on the screen: it has begun and its end has not come (showing); there was none to begin (late).
   logic showing_q, showing, late_q, late;
-  // Of the line: its pixels come in time so far; its TLAST has been shown; it ran short.
+  // The line: its pixels come in time so far (live); its TLAST has been shown (ended); it ran short (short).
   logic live_q, live, ended_q, ended, short_q, short;
   // Line ends that the stream is behind the beam. While there are any, pixels are dropped.
   logic [YBits-1:0] owed_q;
@@ -186,7 +188,7 @@ module video_out #(
   assign short      = miss || (!line_start && short_q);
   // A line that goes on past the screen owes its end, and no one is to blame.
   assign wide       = feed && !head_last && x == XBits'(H_ACTIVE - 1);
-  // What nobody waits for is dropped, but a frame's first pixel waits for its screen.
+  // A pixel that nobody waits for is dropped, but a frame's first pixel waits for its screen.
   assign drop       = head_valid && !head_user && !feed && (owed_q != '0 || !showing);
   assign head_ready = feed || drop;
 

@@ -2,10 +2,10 @@
 // The counters of a video mode, in its pixel clock: where on the screen the beam is, and the two syncs.
 //
 // Handshake: none; a pixel a clock, for ever. After reset comes the first pixel of a frame.
-// A line is H_ACTIVE pixels, front porch, sync, back porch; a frame is so many lines likewise. vsync_o changes where
-// the hsync pulse of a line begins, as the standards of progressive modes have it. The syncs are high in their pulse if
-// H_POSITIVE or V_POSITIVE is 1, else low. x_o and y_o count on in blanking. frame_start_o is high for the frame's
-// first pixel, blank_start_o for the first pixel of the first line that is not seen.
+// A line is H_ACTIVE pixels, front porch, sync, back porch; a frame is made of lines in the same way. Output vsync_o
+// changes where the hsync pulse of a line begins, as the standards of progressive modes have it. The syncs are high in
+// their pulse if H_POSITIVE or V_POSITIVE is 1, else low. Places x_o and y_o count on in blanking. Output frame_start_o
+// is high for the frame's first pixel, blank_start_o for the first pixel of the first line that is not seen.
 // Latency: all outputs are registers and belong to the same pixel. Throughput: a pixel a clock.
 // Cost: 640x480: 26 flip-flops, 61 LUTs of four inputs.
 `default_nettype none

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Included inside a module that has the pixel parameters, kage_widths.svh and kage_layout.svh.
 //
-// What a token does to one pixel: the only place in the RTL that says so. Both arrangements loop over these functions.
+// The effect of a token on one pixel: the RTL defines it only here. Both arrangements loop over these functions.
 //
 // A pixel's state is one word, PixelBits of kage_widths.svh. No struct of it: a field that the configuration lacks has
 // no bits, and yosys 0.23 takes no struct in a function.
@@ -10,15 +10,15 @@ localparam int TallyOne = COUNT_BITS > 0 ? COUNT_BITS : 1;  // one counter
 localparam logic [PixelBits-1:0] PixelClear = PixelBits'(ClearDepth);
 /* verilator lint_on UNUSEDPARAM */
 
-// The share of a command as the blender takes it: TP's alpha; of RESOLVE what is left of a colour, 1 - shade.
+// The share of a command as the blender takes it: TP's alpha, or the part of a colour that RESOLVE leaves, 1 - shade.
 function automatic logic [ShareBits-1:0] pixel_weight(input logic [KindBits-1:0] kind,
                                                       input logic [ShareBits-1:0] share);
   pixel_weight = COUNT_BITS == 0 && kind == KindResolve ? ShareBits'(WholeShare) - share : share;
 endfunction
 
-// The blender: a colour with a share of another. Of TP `over` with alpha / 255, of RESOLVE black with shade /
-// 2^SHADE_FRAC; rounded once. Only the product with the old colour and one sum wait for the command before, so all else
-// is worked out ahead of them: `keep`, what is left of the old colour, in 1/65536, and `added`.
+// The blender: a colour with a share of another. TP blends `over` with alpha / 255, RESOLVE black with shade /
+// 2^SHADE_FRAC; rounded once. Only the product with the old colour and one sum wait for the command before. All else is
+// worked out ahead of them: `keep`, the part of the old colour that stays, in 1/65536, and `added`.
 //   TP: with t = old x (255 - alpha) + over x alpha + 128 the colour is 257 t / 65536, rounded down, for any t here. So
 //   both weights are multiplied by 257 beforehand: `keep` is 255 - alpha twice, one behind the other.
 //   RESOLVE: (old x (1 - shade) + half of a share) / 2^SHADE_FRAC, all of it times 2^(16 - SHADE_FRAC).
@@ -80,9 +80,9 @@ function automatic logic pixel_in_front(input logic [Z_BITS-1:0] z, input logic 
   pixel_in_front = z < drawn;
 endfunction
 
-// Next state of a pixel in the range of a token. What has a long way is found ahead: `opaque` is pixel_opaque's,
-// `in_front` pixel_in_front's. Blended colours come last, by pixel_blends and pixel_blend. `z` and `color` are the
-// span's at this pixel, or the tree's, of RESOLVE the background; `count` is the class for OP and TREE, w for SP and
+// Next state of a pixel in the range of a token. Inputs with a long way are found ahead: `opaque` by pixel_opaque,
+// `in_front` by pixel_in_front. Blended colours come last, by pixel_blends and pixel_blend. `z` and `color` are the
+// span's at this pixel, or the tree's; RESOLVE has the background. `count` is the class for OP and TREE, w for SP and
 // NC, the line's bias for EV and RESOLVE, {light, bias} for ES. RESOLVE comes only where TPs follow; otherwise line_out
 // darkens. With counters RESOLVE darkens nothing: CmdOut sends a line with something to darken to line_out, and CmdLoad
 // brings its colours back. EOL clears.
@@ -150,7 +150,7 @@ function automatic logic pixel_blends(input logic [PixelBits-1:0] pixel, input l
   end
 endfunction
 
-// What leaves a pixel at the end of its line, a word of ExitBits; its counts are 0 where the class is. `bias` is the
+// A pixel's result at the end of its line, a word of ExitBits; its counts are 0 where the class is. `bias` is the
 // line's.
 function automatic logic [ExitBits-1:0] pixel_exit(input logic [PixelBits-1:0] pixel, input logic [DsfBits-1:0] bias);
   begin

@@ -9,7 +9,7 @@ from vectors import axis_angle
 
 
 def depths():
-    """Seen in parallel, a unit being a pixel at 640x480, over the whole range of depth: the near plane is at z = 90, the last
+    """Seen in parallel, a unit being a pixel at 640x480, over the whole range of depth. The near plane is at z = 90, the last
     depth step at -90, the middle of the range at 0. Crests end right behind the near plane and feet at the last step, at edges
     that the snap moves over a pixel's centre: there depth is past its end and the core clamps it. Front faces that overlap in
     one plane tie. Boulders tumble through both halves of the range."""
@@ -28,9 +28,9 @@ def depths():
         d.solid(name, [ends[1], ends[0][::-1]] + sides, color)
 
     for i, x in enumerate(centres):
-        # The steep faces' left edges leave the pixels' centres by less than the snap takes back: there depth goes on, by hundreds
-        # of steps of 2^-24 before the first at the upper crest and beyond the last at the foot, and by a few, from 4 to -4, up
-        # the lower crest. What is less than 1 becomes 1, so the two tie, and the upper one was drawn first.
+        # The steep faces' left edges miss the pixels' centres by less than the snap takes back, so depth goes past the edges
+        # there. It goes hundreds of steps of 2^-24 before the first step at the upper crest, and beyond the last at the foot. Up
+        # the lower crest it goes from step 4 to -4. Depth below 1 becomes 1, so the two tie, and the upper one was drawn first.
         wedge(
             "upper crest %d" % (i + 1),
             [(x, -30), (x + 40, -30), (x, 89.99996)],

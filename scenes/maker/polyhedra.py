@@ -150,8 +150,8 @@ def polyhedra():
         path = ring(9.4, 3.0, -6, 360 / 11 * ((4 * i) % 11), 9)
         place(name, count, sized(faces, size), colors[i], path, spiral(11)[(3 * i) % 11], 50 * i, -20)
 
-    # What leaves the picture: a coin that rolls out below and a drum that rolls out to the left, a cut stone that comes
-    # down from above and a faceted one that flies off to the right.
+    # Bodies that leave or enter the picture: a coin rolls out below and a drum to the left, a cut stone comes down from
+    # above and a faceted one flies off to the right.
     coin = [[(-p[1] + 0.2, p[0], p[2]) for p in f] for f in prism(124, 1.05, 0.4)]
     place("coin", 126, coin, (0.92, 0.74, 0.22), line((-3.1, 1.05, 1.6), (-0.1, 0, 1.65)), (1, 0, 0), 0, 90.04)
     drum = [[(p[0], -p[2], p[1] - 0.45) for p in f] for f in prism(40, 0.85, 0.9)]

@@ -151,7 +151,8 @@ class Parser(argparse.ArgumentParser):
 
 
 def check_board_options(options):
-    """What goes with a board, and what with a device; sets `board`, its name or None, and `feed`, what it is to be fed with."""
+    """Checks options that go with a board only, or with a device only. Sets `board`, its name or None, and `feed`, whether
+    it is to be fed with frames."""
     is_board = options.device in boards.names(options.top)
     options.board = options.device if is_board else None
     options.feed = is_board and (options.pack or options.stream)

@@ -13,11 +13,11 @@ Why that is enough, with T the faster clock's period:
 From a rising edge to a falling one, or from a falling one to a rising one, half of that is allowed.
 
 The time of a pair of clocks is the greater of two that nextpnr's report has:
-  `critical_paths` has a path of each pair, with its setup time. nextpnr chooses it by arrivals, which hold the first clock's wire to
-      its flip-flop, and tells it without that wire, which differs from bit to bit of a pointer.
-  `detailed_net_timings` has the arrivals, counted from where the first clock's net begins. It names one first clock a net, so of a
-      net that two clocks launch nothing can be told; those are words, while a bit of a pointer comes from one flip-flop alone.
-Not in the time are the second clock's wire to its flip-flop, and what lies before both clocks' nets."""
+* `critical_paths` has a path of each pair, with its setup time. nextpnr chooses it by arrivals, which hold the first clock's wire to
+  its flip-flop. It reports the path without that wire, which differs from bit to bit of a pointer.
+* `detailed_net_timings` has the arrivals, counted from where the first clock's net begins. It names one first clock a net, so it
+  has nothing on a net that two clocks launch. Such nets are words; a bit of a pointer comes from one flip-flop alone.
+The time leaves out the second clock's wire to its flip-flop, and all that lies before both clocks' nets."""
 
 import collections
 import dataclasses

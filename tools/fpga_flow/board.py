@@ -102,7 +102,7 @@ def needs(modules, board, folder):
 
 @dataclasses.dataclass(frozen=True)
 class Facts:
-    """What of a board decides what it can be fed with."""
+    """Properties of a board that decide which frames it can be fed with."""
 
     sdram: bool
     words: int  # of 32 bits

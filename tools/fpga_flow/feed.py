@@ -60,7 +60,7 @@ def of_stream(top, path):
 
 
 def why_not(frames, b, facts, pixel):
-    """What of the board does not take the frames, or nothing. `pixel`: the parameters that decide pixels."""
+    """Why the board does not take the frames, in words; None if it does. `pixel`: the parameters that decide pixels."""
     p = b.core.parameters
     other = [f"{k} {p[k]} and not {frames.parameters[k]}" for k in pixel if frames.parameters.get(k, p[k]) != p[k]]
     if other:

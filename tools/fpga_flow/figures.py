@@ -37,7 +37,7 @@ FLOW = "tools/fpga_flow/flow.py"  # the options of yosys and nextpnr
 
 
 def values_of(device, what):
-    """What of a run's options changes its figures, beside files and versions."""
+    """Options of a run that change its figures, beside files and versions."""
     values = {"parameters": what.parameters, "nextpnr": list(device.nextpnr)}
     return values | ({"synth": list(device.synth)} if device.synth else {})
 
@@ -52,7 +52,7 @@ def other_tools(top, row):
 
 
 def of_run(top, device, what, modules):
-    """What a run of the core was measured on; `modules` are all that it has."""
+    """Hash of all that a run of the core was measured on; `modules` are all that the core has."""
     files = [f for m in modules for f in (f"rtl/{m}.sv", f"constraints/{m}.sv") if (top / f).is_file()]
     files = kept_rows.with_includes(top, files)
     files += [FLOW, "constraints/least_loop.sv", "constraints/lone_adder.sv"]
@@ -71,7 +71,7 @@ def moved(top, row):
 
 
 def values_of_board(board):
-    """What of a board changes its bitstream's figures, beside files and versions."""
+    """Options of a board that change its bitstream's figures, beside files and versions."""
     design = board.design
     return {
         "parameters": design.values,
@@ -81,7 +81,7 @@ def values_of_board(board):
 
 
 def of_board(top, board):
-    """What a board's bitstream is made of."""
+    """Hash of all that a board's bitstream is made of."""
     sources = [str(f.relative_to(top)) for pattern in board.design.sources.split() for f in top.glob(pattern)]
     includes = [
         str(f.relative_to(top)) for folder in board.design.includes for f in top.glob(f"{folder}/**/*") if f.is_file()
@@ -99,7 +99,7 @@ def board_moved(top, row):
 
 
 def row_of(figures):
-    """What of a run's figures is kept."""
+    """The row that is kept of a run's figures."""
     path = figures["worst_path"]
     return {
         "device": figures["device"],

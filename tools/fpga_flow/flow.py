@@ -19,7 +19,7 @@ class NotPlaced(Trouble):
 
 @dataclasses.dataclass
 class Design:
-    """What is placed: a top module with its parameters, and what its files are called. Paths are within a run's folder."""
+    """A design to be placed: a top module with its parameters, and the names of its files. Paths are within a run's folder."""
 
     name: str
     top: str
@@ -55,7 +55,7 @@ def place(programs, device, design, folder, seed):
     try:
         programs.run(programs.find(f"nextpnr-{device.family}"), arguments, folder, f"{name}-nextpnr.log")
     except runs.Failed as failed:
-        # What nextpnr says of a design; a nextpnr that was killed, or broke, says no such line.
+        # nextpnr's message on a design; a nextpnr that was killed, or broke, writes no such line.
         if failed.code > 0 and failed.error.startswith("ERROR: "):
             raise NotPlaced(failed) from failed
         raise
@@ -106,5 +106,5 @@ def cells_of(device, report, netlist):
 
 
 def spread(clocks):
-    """Of the clocks by several seeds: the median, which is what counts, and the ends."""
+    """The median of the clocks by several seeds, which is the figure that counts, and the ends."""
     return {"median": statistics.median(clocks), "worst": min(clocks), "best": max(clocks), "all": clocks}

@@ -8,7 +8,7 @@ from trouble import Trouble
 
 
 def clocks_of(kage, stream, parameters, folder):
-    """What `kage info STREAM --clocks` says of the core with these parameters."""
+    """The clocks that `kage info STREAM --clocks` counts for the core with these parameters."""
     config = folder / "core.yaml"
     config.write_text("".join(f"{k}: {v}\n" for k, v in parameters.items()))
     command = [kage, "info", stream, "--clocks", "--config", config, "--json", "-"]

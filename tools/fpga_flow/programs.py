@@ -84,8 +84,8 @@ class Programs:
         return program
 
     def first_output(self, command):
-        """The first run of a program here. Of several at once one compiles the WebAssembly, which takes a minute, and the
-        others wait: who writes it anew would cut it off under one that has it in memory, which ends by SIGBUS."""
+        """The first run of a program here. If several run at once, one compiles the WebAssembly, which takes a minute, and
+        the others wait. One that wrote it anew would cut it off under another that has it in memory, which ends by SIGBUS."""
         with contextlib.ExitStack() as stack:
             if self.which == "wheels":
                 folder = os.open(self.compiled, os.O_RDONLY)

@@ -3,14 +3,14 @@
 
 import re
 
-# What follows a signal's name in the name of a cell that yosys made of it.
+# End of the name of a cell that yosys made of a signal, behind the signal's name.
 CELL = re.compile(
     r"_(TRELLIS_FF|SB_DFF\w*?|LUT4|SB_LUT4|CCU2C|SB_CARRY|PFUMX|L6MUX21|TRELLIS_DPR16X4|DP16KD|SB_RAM40_4K)(_|$).*|_\$.*|\$.*"
 )
 
 
 class Places:
-    """Says of a cell in the flat netlist in which module it lies, and what signal it is of."""
+    """Finds the module that a cell of the flat netlist lies in, and the signal that it belongs to."""
 
     def __init__(self, modules, top, netlist):
         self.cells = netlist["cells"]

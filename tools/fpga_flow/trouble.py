@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What ends a run: one line on standard error, exit code 2."""
+"""An error that ends a run: one line on standard error, exit code 2."""
 
 
 class Trouble(Exception):

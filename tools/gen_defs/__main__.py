@@ -26,7 +26,7 @@ def rtl_files(pattern):
 
 
 def boards():
-    """What kage.core has of constraints/boards: files, parameters, and the boards with all parameters together."""
+    """Data of constraints/boards for kage.core: files, parameters, and the boards with all parameters together."""
     rows = yaml.safe_load((TOP / BOARDS).read_text())
     folder = (TOP / BOARDS).parent
     tops = sorted({b["top"] for b in rows.values()})

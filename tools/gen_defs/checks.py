@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What the RTL takes for granted of rtl/defs/kage.yaml: a definition in which it does not hold is refused."""
+"""Assumptions of the RTL about rtl/defs/kage.yaml: a definition that breaks one is refused."""
 
 from files import SOURCE
 
@@ -9,7 +9,7 @@ def refuse(what):
 
 
 def constants_hold(d, params):
-    """What the widths that no parameter changes are for fits into them."""
+    """Numbers fit into the widths that no parameter changes, and the kinds of a level are numbered without a gap."""
     most = {
         "line_number_bits": (d["max_height"], "lines of a frame"),
         "unit_number_bits": (max(p["max"] for p in params if p["name"] == "UNITS") - 1, "UNITS"),

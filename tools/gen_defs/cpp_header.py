@@ -11,7 +11,7 @@ def frame_header(defs):
     def is_int(f):
         return f["bits"] < 32 and "same" not in f
 
-    o = ["/// A frame's header. What is narrower than 32 bits holds no negative number.", "struct FrameHeader {"]
+    o = ["/// A frame's header. Fields narrower than 32 bits hold no negative number.", "struct FrameHeader {"]
     o += [
         f"  static constexpr Field k{camel(f['name'])}{{{32 * f['word'] + f['lsb']}, {f['bits']}, false}};  ///< where {f['name']} is"
         for f in defs.header_fields

@@ -149,7 +149,7 @@ class Defs:
 
         def value(t):
             order, names = t["order"], [p["name"] for p in phases]
-            # What leaves the line's phases ends the line, and line_phase begins anew.
+            # A token that leaves the line's phases ends the line, and line_phase begins anew.
             stays = not order["to"] or order["to"] in names
             if what == "kind_is_state":
                 return "1'b1" if order["in"] == ["state"] else None
@@ -216,7 +216,7 @@ class Defs:
 
     @staticmethod
     def text_pieces(token):
-        """What is told of a token: {form, names, cpp}, one after the other. Form text is text; the others are those of `text`."""
+        """The pieces of a token's text, in order: {form, names, cpp}. Form `text` is plain text; other forms are those of `text`."""
         pieces, plain = [], token["name"] + (" " if token["text"] else "")
         members = {f["name"]: "t." + str(f["cpp"]) for f in token["fields"]}
 
@@ -268,7 +268,7 @@ class Defs:
 
     @staticmethod
     def register_text(r):
-        """What a register means, with its fields: a table's cell, or a comment."""
+        """The meaning of a register, with its fields: a table's cell, or a comment."""
         text = f"0x{r['value']:08X}, {r['doc']}" if "value" in r else r["doc"]
         fields = []
         for f in r.get("fields", []):

@@ -31,7 +31,7 @@ def py_expr(expr):
     """The same as Python, whose conditional stands in another order."""
     if isinstance(expr, bool):
         return str(expr)
-    # What is in parentheses goes first, and stands as @number@ till the rest is done.
+    # Parts in parentheses go first, and stand as @number@ till the rest is done.
     text, inner = str(expr), []
     while group := re.search(r"\(([^()]*)\)", text):
         inner.append(group.group(1))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What monitors tell (rtl/defs/stages.yaml), for SystemVerilog and for the C that its testbench links."""
+"""Events that monitors report (rtl/defs/stages.yaml), for SystemVerilog and for the C that its testbench links."""
 
 import yaml
 from expressions import camel
@@ -7,7 +7,7 @@ from files import STAGES, STAGES_NOTE
 
 
 class Stages:
-    """What monitors tell (rtl/defs/stages.yaml)."""
+    """Events that monitors report (rtl/defs/stages.yaml)."""
 
     def __init__(self, path, defs):
         self.d = yaml.safe_load(path.read_text())

@@ -164,7 +164,7 @@ def board_registers(defs):
 
 
 def figures(_):
-    """What tools/fpga --record measured."""
+    """The figures that tools/fpga --record measured."""
 
     def clock(r):
         median, all_seeds = f"{r['clock_mhz']:.1f}", r["clocks_mhz"]
@@ -207,7 +207,7 @@ def figures(_):
 
 
 def board_figures(_):
-    """What tools/fpga BOARD --record measured: the seed whose bitstream it is first, then the worst and the best."""
+    """The figures that tools/fpga BOARD --record measured: first the bitstream's seed, then the worst and the best."""
 
     def cells(r, kind):
         c = r["cells"].get(kind)

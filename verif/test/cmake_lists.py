@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What CMake lists link, name and install that their rooms may not: a part of layers.py."""
+"""CMake lists link, name and install nothing that their rooms may not: a part of layers.py."""
 
 import posixpath
 import re
@@ -13,7 +13,7 @@ MAKE = ("add_library", "add_executable", "add_custom_target", "kage_executable",
 LINK = ("add_library", "add_executable", "kage_executable", "kage_module", "target_link_libraries", "target_sources")
 # Lists that put the build together: they may name every room.
 OF_THE_BUILD = ("CMakeLists.txt", "verif/CMakeLists.txt", "verif/long_tests.cmake")
-# Where names of includes begin. What is included is judged file by file.
+# Where names of includes begin. Includes are judged file by file.
 ROOTS = ("ref", "ref/include", "verif")
 # The libraries of the golden model stand for its public headers.
 REF = "ref/CMakeLists.txt"
@@ -51,8 +51,8 @@ def makers(lists):
 
 
 def named(path, text, names):
-    """(command, file or folder of the source) that a list names. What is a variable in a name stands for anything; names of
-    the build's files and of installed ones are left out."""
+    """(command, file or folder of the source) that a list names. A variable in a name stands for anything. Names of the
+    build's files and of installed ones are left out."""
     here = "" if path.startswith("cmake/") else posixpath.dirname(path)  # the list at the top reads those of cmake/
     known = {"PROJECT_SOURCE_DIR": "/", "CMAKE_CURRENT_SOURCE_DIR": f"/{here}"}
 
@@ -90,8 +90,8 @@ def may_name(path, target):
 
 
 def refused(path, text, lists, names, used=None):
-    """What a list of this path may not have, a line for each. lists: all, by path; names: all files and folders, with whether
-    each is a file. What an exemption is used for goes into `used`."""
+    """A line for each thing that a list of this path may not have. `lists` has all lists by path. `names` has all files and
+    folders, and whether each is a file. Exemptions that are needed go into `used`."""
     made_by, bad = makers({**lists, path: lists.get(path, "") + "\n" + text}), set()
     of_a_room = not path.startswith("cmake/") and path not in OF_THE_BUILD
     for name, words in commands(text):

@@ -13,7 +13,7 @@ from stages import Stages  # noqa: E402
 
 TEXT = (top / "rtl/defs/kage.yaml").read_text()
 XL, XR, W = "{name: xl, bits: X_BITS}", "{name: xr, bits: X_BITS}", '{name: w, bits: "DSF_BITS + 1", signed: true}'
-# What is planted: behind which text, what stands there, what stands there then; and what is said of it.
+# The injected errors: the text that each stands behind, the old text, the new text; and the message.
 PLANTED = [
     ("name: EV,", f"{XL}, {XR}", f"{XR}, {XL}", "tokens: EV: xl is elsewhere"),
     ("name: TP,", XR, "{name: xr, bits: 16}", "tokens: TP: xr is elsewhere"),
@@ -53,7 +53,7 @@ PLANTED = [
 
 
 def said_of(text):
-    """What is said of a definition; nothing of one that is taken."""
+    """The message about a definition; empty for one that is taken."""
     with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
         file.write(text)
         file.flush()

@@ -2,12 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Folders have of each other what docs/architecture.md ("Layers") and the tables of tools/rooms.py let them.
 
-Includes of C++: a layer has those below it and their public headers. Oracles have public headers and wide integers, and but
-for those that rooms.py names none calls what draws or measures what it judges.
-CMake lists: a target links targets of rooms that its own may include, and a list names files of these alone. What is
-installed is a product's, and no product has a file of tests, mutants, extremes, fuzzing or benchmarks (cmake_lists.py).
-Python: a file imports from folders that its own may, no file of a product names one of these, and there is no circle
-(python_imports.py).
+Includes of C++: a layer includes those below it and their public headers. An oracle includes public headers and wide integers.
+It calls nothing that draws or measures what it judges, but for those that rooms.py names.
+CMake lists (cmake_lists.py): a target links targets of rooms that its own may include, and a list names files of these alone.
+Products alone are installed. They name no file of tests, mutants, extremes, fuzzing or benchmarks.
+Python (python_imports.py): a file imports from folders that its own may. No imports make a circle.
 
 usage: layers.py SOURCE_DIR
 """
@@ -29,7 +28,7 @@ def refused(path, text, files):
 
 
 def drawn(text):
-    """What of the golden model a file calls that draws."""
+    """The functions and classes of DRAWS that a file calls."""
     code = re.sub(r"//[^\n]*", "", text)
     return [name for name in DRAWS if re.search(rf"\b{name}( \w+)?\(", code)]
 

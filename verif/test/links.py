@@ -33,7 +33,7 @@ def headings(text):
 
 
 def wrong(page, top):
-    """What is wrong with each link of the page."""
+    """The fault of each link of the page that has one."""
     for target in LINK.findall(CODE.sub("", page.read_text())):
         if re.match(r"[a-z]+:", target):
             continue  # another host's

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What Python files import and name that their folders may not, and circles of imports: a part of layers.py."""
+"""Python files import and name nothing that their folders may not, and no imports make a circle: a part of layers.py."""
 
 import ast
 import posixpath
@@ -13,8 +13,8 @@ def constants(node):
 
 
 def added(path, tree):
-    """The folders that a file adds to sys.path, those before its own and those behind: by the text in the statement, from the
-    source's root or from the file's folder; without a text by the number of parents of __file__."""
+    """The folders that a file adds to sys.path, those before its own and those behind. A text in the statement names a folder
+    from the source's root or from the file's folder. Without a text the number of parents of __file__ does."""
     before, behind, here = [], [], posixpath.dirname(path)
     for node in ast.walk(tree):
         if not isinstance(node, (ast.Expr, ast.Assign)) or not ast.unparse(node).startswith("sys.path"):
@@ -79,7 +79,7 @@ def may_import(path, target):
 
 
 def refused(path, text, files):
-    """What a file of this path may not have, a line for each."""
+    """A line for each thing that a file of this path may not have."""
     bad = {f"imports {t}, which its folder may not" for t in imports(path, text, files) if not may_import(path, t)}
     if is_below(path, PRODUCTS):
         tree = ast.parse(text)

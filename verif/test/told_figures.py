@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-"""tools/figures in a copy of the tree whose rows are of it: silent as it is and where comments and assertions change, and a line
-for each page that tells another number, or what was measured on other RTL.
+"""tools/figures in a copy of the tree whose rows belong to it: silent on the copy as it is, and where comments and
+assertions change. It prints a line for each page that has another number, or one measured on other RTL.
 
 usage: told_figures.py SOURCE_DIR
 """

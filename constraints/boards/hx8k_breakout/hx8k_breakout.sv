@@ -3,8 +3,8 @@
 // FTDI's UART; picture by VGA, through resistors on a header. README.md beside this file says how it is loaded and
 // wired.
 //
-// Clocks: 12 MHz from the crystal, for the UART too; a PLL for the core, 12 MHz x (CORE_DIVF + 1) / 2^CORE_DIVQ, and,
-//   with a screen, one for the pixels, 25.125 MHz of 12 x 67 / 32. They cross by async_fifo.
+// Clocks: 12 MHz from the crystal, for the UART too. A PLL makes the core's, 12 MHz x (CORE_DIVF + 1) / 2^CORE_DIVQ.
+//   With a screen, another makes the pixels', 12 x 67 / 32 = 25.125 MHz. They cross by async_fifo.
 // Reset: until the PLLs have locked. The board has no button.
 // VGA: two bits a colour, the highest of each channel; black outside of the picture. A core of one channel is grey.
 `default_nettype none
@@ -45,8 +45,8 @@ module hx8k_breakout #(
     output logic [1:0] vga_blue
 );
   // ---- clocks and resets -------------------------------------------------------------------------------------------
-  // The crystal's clock by a global net, whose delay is the same everywhere: a clock that goes by other wires reaches
-  // some flip-flops later than the data of others, which nextpnr does not see.
+  // The crystal's clock goes by a global net, whose delay is the same everywhere. By other wires a clock reaches some
+  // flip-flops later than the data of others, which nextpnr does not see.
   logic crystal_clk, clk, pix_clk, core_locked, pix_locked;
   SB_GB u_crystal_clk (
       .USER_SIGNAL_TO_GLOBAL_BUFFER(clk_12mhz),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The primitives of Lattice's ECP5 that boards' tops use, as they behave, for simulation: a PLL, an output register of
-// double data rate, a flip-flop, a pad. What of a primitive no top uses is refused or left out.
+// double data rate, a flip-flop, a pad. Features of a primitive that no top uses are refused or left out.
 `default_nettype none
 
-// The PLL: it measures CLKI's period, and 30 periods later all clocks run, each a part of the oscillator, CLKOP and
-// CLKOS with a rising edge at once, CLKOS2 and CLKOS3 1.3 and 2.1 ns behind them, as far as the ways of clocks may
-// differ: what crosses between them changes just before it is looked at. LOCK follows ten periods after them. Jitter
-// and phases other than DIV - 1 (0 degrees) are not modelled.
+// The PLL: it measures CLKI's period, and 30 periods later all clocks run, each a part of the oscillator. CLKOP and
+// CLKOS have a rising edge at once, CLKOS2 and CLKOS3 run 1.3 and 2.1 ns behind them. Clock paths may differ so much,
+// and data that cross then change just before they are sampled. LOCK follows ten periods after the clocks. Jitter and
+// phases other than DIV - 1 (0 degrees) are not modelled.
 module EHXPLLL #(
     parameter int CLKI_DIV = 1,
     parameter int CLKFB_DIV = 1,

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The iCE40-HX8K breakout board as a whole, for simulation: its top alone, since nothing lies at its pins. What is
-// outside, crystal, host and screen, is verif/board/sim's. The board has no button: button_ni does nothing.
+// The iCE40-HX8K breakout board as a whole, for simulation: its top alone, since nothing lies at its pins. Crystal,
+// host and screen are outside, in verif/board/sim. The board has no button: button_ni does nothing.
 //
-// wires_o: of the VGA socket, from bit 0 on red, green and blue of two bits each, hsync, vsync.
-// bits_o, periods_o: so many pixels go out in so many periods of the crystal, which follows from the PLL's parameters.
-// The model's screen looks at the wires by them.
+// wires_o  wires of the VGA socket, from bit 0 on: red, green and blue of two bits each, hsync, vsync
+// bits_o, periods_o  bits_o pixels go out in periods_o periods of the crystal, by the PLL's parameters. The model's
+// screen
+//                    samples the wires by them.
 `default_nettype none
 
 module board_sim #(

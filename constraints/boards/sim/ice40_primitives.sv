@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The primitives of Lattice's iCE40 that boards' tops use, as they behave, for simulation: a PLL, a buffer. What of a
-// primitive no top uses is refused or left out.
+// The primitives of Lattice's iCE40 that boards' tops use, as they behave, for simulation: a PLL, a buffer. Features of
+// a primitive that no top uses are refused or left out.
 `default_nettype none
 
-// The PLL: it measures REFERENCECLK's period, and 30 periods later its clock runs, 1.3 ns behind the reference's edges,
-// as far as the ways of clocks may differ: what crosses between them changes just before it is looked at. LOCK follows
-// ten periods after it. Jitter is not modelled.
+// The PLL: it measures REFERENCECLK's period, and 30 periods later its clock runs, 1.3 ns behind the reference's edges.
+// Clock paths may differ so much, and data that cross then change just before they are sampled. LOCK follows ten
+// periods after the clock. Jitter is not modelled.
 module SB_PLL40_CORE #(
     parameter string FEEDBACK_PATH = "SIMPLE",
     parameter logic [3:0] DIVR = 4'd0,

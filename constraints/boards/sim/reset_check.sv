@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Watches the resets of a board's clocks in simulation. good_i, of no clock, says when they may be released: each LEAST
-// edges of its clock later at least. Of reset_release's 16 clocks that is all, two flip-flops that bring good_i across,
-// and the reset's own; an edge at the very moment of good_i may count or not. A reset that is released earlier stops
-// the simulation; so does one that is released before all have been asserted at once. good_i falls three clocks before
-// the reset does: one that was due then is still released.
+// Watches the resets of a board's clocks in simulation. good_i, of no clock, says when they may be released: each at
+// least LEAST edges of its clock later. LEAST is reset_release's 16 clocks, two flip-flops that bring good_i across,
+// and the reset's own. An edge at the very moment of good_i may count or not. A reset that is released earlier stops
+// the simulation. So does one that is released before all have been asserted at once. good_i falls three clocks before
+// the reset does: a reset that was due then is still released.
 `default_nettype none
 
 module reset_check #(

@@ -2,16 +2,16 @@
 // An SDR SDRAM of 16 bits as its data sheet tells of it, for simulation by Verilator. It knows nothing of any
 // controller.
 //
-// What it does: bursts and CAS latency as the mode register says (1, 2, 4, 8 columns in sequence, which turn round
-// within their aligned group), dqm (two clocks late for reads), and what it is asked otherwise is checked by
-// sdram_rules: a broken rule stops the simulation with its name, the time and the bank.
+// Function: bursts and CAS latency as the mode register says (1, 2, 4, 8 columns in sequence, which wrap within their
+// aligned group), and dqm (two clocks late for reads). The module sdram_rules checks every command: a broken rule stops
+// the simulation with its name, the time and the bank.
 // Charge leaks: a row that is neither refreshed nor activated for RETENTION clocks reads as its complement from then
-// on. An auto refresh takes the next row, of every bank. What was never written reads as a number made of the address.
-// Data bus: split in dq_i, dq_o and dq_oe_o, because Verilator 5.006 makes of a tristate bus between modules an
-// approximation. What is not driven, and what is masked, reads as 16'hdead.
-// Memory: an associative array, so that 32 MB cost nothing but what was written.
-// power_i is no pin: low, the chip has no supply, and forgets its mode; a test that resets its controller turns it
-// off too.
+// on. An auto refresh takes the next row, of every bank. Words never written read as a number made of the address.
+// Data bus: split in dq_i, dq_o and dq_oe_o, because Verilator 5.006 only approximates a tristate bus between
+// modules. Bits that are not driven or are masked read as those of 16'hdead.
+// Memory: an associative array, so that 32 MB cost only the words that were written.
+// Power: power_i is no pin. While it is low, the chip has no supply, and forgets its mode. A test that resets its
+// controller turns the power off too.
 // Latency: that of the mode register. Throughput: a column a clock. Cost: none, it is not for synthesis.
 `default_nettype none
 
@@ -116,7 +116,7 @@ module sdram_chip #(
   assign dq_o[7:0] = oe_q[0] && !mask_q[0] ? way_q[7:0] : 8'had;
   assign dq_o[15:8] = oe_q[0] && !mask_q[1] ? way_q[15:8] : 8'hde;
 
-  // What the edge does, in the order of things: so blocking, in variables that nothing else reads in this edge.
+  // Work of the edge, step by step: so assignments block, in variables that nothing else reads in this edge.
   /* verilator lint_off BLKSEQ */
   logic now_reads, now_writes;
   logic [3:0] now_left;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The ULX3S as a whole, for simulation: its top, and the SDRAM at its pins with the delays of pads and chip. What is
-// outside, crystal, host and screen, is verif/board/sim's.
+// The ULX3S as a whole, for simulation: its top, and the SDRAM at its pins with the delays of pads and chip. Crystal,
+// host and screen are outside, in verif/board/sim.
 //
-// dq_late: what the chip puts out reaches the FPGA's flip-flop LATE_PS picoseconds after the clock left it: as it
-// stands 3 ns for the clock's way out, 6 for the chip (t_AC), 2 for the way in.
-// wires_o: of the DVI socket, from bit 0 on blue, green, red and the clock.
-// bits_o, periods_o: so many bits go over the DVI link in so many periods of the crystal, which follows from the PLL's
-// parameters. The model's screen looks at the wires by them.
+// dq_late  the chip's data, which reach the FPGA's flip-flop LATE_PS picoseconds after the clock left it. The default
+// is
+//          3 ns for the clock's way out, 6 for the chip (t_AC), 2 for the way in.
+// wires_o  wires of the DVI socket, from bit 0 on: blue, green, red and the clock
+// bits_o, periods_o  bits_o bits go over the DVI link in periods_o periods of the crystal, by the PLL's parameters. The
+//                    model's screen samples the wires by them.
 `default_nettype none
 
 module board_sim #(

@@ -10,8 +10,8 @@
 //   resets either all clocks or none: one flip-flop of the crystal's clock decides, and its reset is longer than three
 //   clocks of each of the others.
 // SDRAM: its clock is the memory's turned round, so that the chip takes commands in the middle of their clock. Read
-//   data are taken at the memory's falling edge. At 75 MHz they are valid there from 2.3 ns before that edge to 7.5 ns
-//   after it, counting 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5) and 2 for the way in. READ_RISING
+//   data are taken at the memory's falling edge. At 75 MHz they are valid there from 2.3 ns before to 7.5 ns after that
+//   edge. This counts 3 ns for the clock's way out, 6 for the chip (t_AC; t_OH 2.5), 2 for the way in. READ_RISING
 //   1 takes them at the rising edge behind it, 6.7 ns later: for pads whose ways take 1 to 8 ns more than these 5. Chip
 //   and flip-flops have one clock, so the phase of the PLL's output moves both, and no margin. A greater MEM_DIV widens
 //   it. All pins but clock, data enable and constants have their flip-flop in the pad, so no placement changes their

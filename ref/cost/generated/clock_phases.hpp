@@ -11,14 +11,14 @@
 
 namespace kage {
 
-/// What the clocks of a frame are counted under.
+/// Phases of a frame under which its clocks are counted.
 enum class Phase : std::uint8_t { state, polygons, opaque, volumes, volume_ends, samples, translucent, line_out };
 inline constexpr std::size_t kPhases = 8;
 
 inline constexpr std::array<std::string_view, kPhases> kPhaseNames{
     "state", "polygons", "opaque", "volumes", "ends of volumes", "light samples", "translucent", "line out"};
 
-/// What belongs to each: "SP, NC, IF".
+/// Tokens of each phase: "SP, NC, IF".
 inline constexpr std::array<std::string_view, kPhases> kPhaseTokens{
     "SHADE, TABLE, FACE, SEG, RESOLVE, END", "GRADIENT, POLYGON, EDGE, AT", "TREE, OP", "SP, NC, IF", "EV", "ES", "TP", "EOL"};
 

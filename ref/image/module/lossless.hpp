@@ -11,9 +11,9 @@ namespace kage::picture_module {
 /// of it.
 void refuse_lossy_file(const std::filesystem::path& path);
 
-/// Throws Error for a format, by OpenImageIO's name, of which it is not known that two files of different values come
-/// out different, and for a Truevision file, which nothing but its reader knows, as refuse_lossy_file() does.
-/// unit/image/lossless tries those that are let through.
+/// Throws Error unless the format, by OpenImageIO's name, is one that is known to give different pictures for files of
+/// different values; unit/image/lossless tries these formats. A Truevision file has no mark at its beginning, so only
+/// here is it checked as refuse_lossy_file() checks others.
 void refuse_lossy_format(const std::filesystem::path& path, std::string_view format);
 
 }  // namespace kage::picture_module

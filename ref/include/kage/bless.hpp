@@ -14,7 +14,7 @@
 
 namespace kage {
 
-/// What becomes of a file of a reference folder.
+/// Outcome for a file of a reference folder.
 struct BlessEntry {
   /// How the new file stands to the reference.
   enum class What : std::uint8_t {
@@ -28,8 +28,8 @@ struct BlessEntry {
   std::string reason;                                   ///< changed: how, in words
   FolderEntry::Sort sort = FolderEntry::Sort::picture;  ///< what it is
 
-  /// What is neither picture nor stream always stays.
-  /// @return whether it goes where it is missing and that is asked for
+  /// A file that is neither picture nor stream always stays.
+  /// @return whether the reference's file may be removed: the new folder lacks it, and it is a picture or a stream
   [[nodiscard]] bool prunable() const { return what == What::missing && sort != FolderEntry::Sort::other; }
 };
 

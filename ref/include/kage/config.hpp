@@ -38,7 +38,7 @@ NamedConfig load_config(const std::string& name_or_file);
 /// @return YAML, one parameter a line, in the order of the definition file
 std::string to_yaml(const Config& config);
 
-/// What a scene asks of a core, as far as it decides which named configuration can draw it.
+/// A scene's needs that decide which named configuration can draw it.
 struct Needs {
   int width = 1;                 ///< of the picture, in pixels
   int height = 1;                ///< of the picture, in lines

@@ -34,7 +34,7 @@ struct FrameStatus {
 /// @return "ORDER at line 3, token 17: a token where its phase does not allow it", or "no error"
 std::string describe(const FrameStatus& status);
 
-/// What a core keeps of a pixel of the line at hand (docs/stream.md, "What a pixel does").
+/// State that a core keeps for a pixel of the current line (docs/stream.md, "What a pixel does").
 struct PixelState {
   std::uint32_t z = 0;                    ///< 2^Z_BITS - 1: clear; then all below is 0 until a TP of the line has come
   std::array<std::uint8_t, 3> color{};    ///< one channel: the first
@@ -113,8 +113,8 @@ class CoreObserver {
   /// @param line as the token finds it
   virtual void before([[maybe_unused]] std::uint32_t index, [[maybe_unused]] const Token& token,
                       [[maybe_unused]] std::span<const std::uint32_t> words, [[maybe_unused]] const LineView& line) {}
-  /// A token of a frame at the polygon level is there whole, and its kind is one that the configuration has. What comes
-  /// of it in the front end follows: before() and after() are called for each token of the span level, with this index.
+  /// A token of a frame at the polygon level is there whole, and its kind is one that the configuration has. Then
+  /// before() and after() are called, with this index, for each token of the span level that the front end makes of it.
   /// @param index of the token in the frame, from 1
   /// @param token what it says
   /// @param words the token's; before() has these very words, and not a copy, if the token goes on as it came
@@ -154,7 +154,7 @@ class GoldenCore {
   void feed(std::span<const std::uint32_t> words, const LineSink& sink);
 
   /// Ends the frame: its words have all been fed, TLAST with the beat of the last. That beat is filled with zeros up to
-  /// BEAT_WORDS, as the port does it. What is fed next is the next frame.
+  /// BEAT_WORDS, as the port does it. The words that are fed next are the next frame's.
   /// @param sink gets the lines that are still to come, after an error
   /// @return how the frame ended
   FrameStatus finish(const LineSink& sink);

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kStreamMagic = 0x4b47;  ///< in a header's first 
 inline constexpr std::uint32_t kHeaderWords = 5;  ///< words of a header
 /// Words of a header by name, in their order.
 inline constexpr std::array<std::string_view, 5> kHeaderWordNames{{"magic_version", "size", "param_hash", "background", "frame"}};
-/// What the tokens of a frame may be.
+/// Levels of a frame, by its tokens.
 enum class Level : std::uint8_t {
   spans,     ///< spans and what ends them
   polygons,  ///< polygons too, which the front end makes spans of
@@ -53,7 +53,7 @@ struct Field {
   bool is_signed = false;  ///< two's complement
 };
 
-/// A frame's header. What is narrower than 32 bits holds no negative number.
+/// A frame's header. Fields narrower than 32 bits hold no negative number.
 struct FrameHeader {
   static constexpr Field kVersion{0, 16, false};  ///< where version is
   static constexpr Field kMagic{16, 16, false};  ///< where magic is
@@ -280,7 +280,7 @@ constexpr Kind kind_of(std::uint32_t word, Level level = Level::spans) {
   return static_cast<Kind>(moved ? code + (1u << kKindBits) : code);
 }
 
-/// What a token's first word has for its kind.
+/// The code of a kind in a token's first word.
 /// @param kind any
 /// @return the lowest bits of the word
 constexpr std::uint32_t code_of(Kind kind) { return static_cast<std::uint32_t>(kind) & ((1u << kKindBits) - 1u); }
@@ -312,7 +312,7 @@ enum class ErrorCode : std::uint8_t {
 inline constexpr std::array<std::string_view, 15> kErrorNames{
     "NONE", "HEADER", "SIZE", "PARAMS", "KIND", "ORDER", "RANGE", "LINE", "LAST_EARLY", "LAST_LATE", "SEGMENT", "UNIT_LONG", "UNIT_SHORT", "PLACE", "ACTIVE_FULL"};
 
-/// What the errors mean, by their codes.
+/// Meanings of the errors, by their codes.
 inline constexpr std::array<std::string_view, 15> kErrorTexts{
     "no error",
     "magic or version is not this core's: version 2, the polygon level, needs a front end (ACTIVE)",

@@ -27,12 +27,12 @@ struct Box {
   bool operator==(const Box&) const = default;
 };
 
-/// What is compared, and what is still the same. A value, one channel of a pixel, is the same if its bits are, or if it
-/// is within the threshold given; a pixel is the same if all its compared values are.
+/// Options of a comparison: the compared values, and the differences that still count as the same. A value is one
+/// channel of a pixel. It is the same if its bits are, or if it is within the threshold given; a pixel is the same if
+/// all its compared values are.
 ///
-/// Each threshold means one thing, so each belongs to one sort of values, and Error is thrown where a picture holds the
-/// other: `lsb` to integers, `abs` and `ulp` (of which one at most is given) to half, float and double. A threshold of
-/// 0 is the same as none.
+/// Each threshold belongs to one sort of values: `lsb` to integers, `abs` and `ulp` (at most one of them is given) to
+/// half, float and double. Error is thrown where a picture holds the other sort. A threshold of 0 is the same as none.
 struct DiffOptions {
   std::optional<std::uint64_t> lsb;  ///< integers: |a - b| <= lsb, in steps of the file's type (1/65535 for 16 bits)
   std::optional<double> abs;         ///< floats: |a - b| <= abs, computed in double; +0 and -0 are within any abs > 0
@@ -55,8 +55,8 @@ struct FlipNumbers {
   double most = 0;  ///< of any pixel
 };
 
-/// Outcome. Of pictures that are unlike in what no threshold tolerates (size, place, channels, types, colour space)
-/// only `same` and `reason` are set, and width is 0.
+/// Outcome. For pictures that are unlike in a way that no threshold tolerates (size, place, channels, types, colour
+/// space) only `same` and `reason` are set, and width is 0.
 struct DiffResult {
   /// A value of a picture.
   struct Position {
@@ -140,7 +140,7 @@ void save_blink(const std::filesystem::path& path, const Image& a, const Image& 
 
 /// A file's name in one or both of two folders, by '/' from the folder, subfolders included.
 struct FolderEntry {
-  /// What a file is, by its extension, as docs/diff.md lists them.
+  /// Sort of a file, by its extension, as docs/diff.md lists them.
   enum class Sort : std::uint8_t {
     picture,  ///< compared by diff_files()
     stream,   ///< compared by diff_streams()

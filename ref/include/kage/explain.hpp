@@ -16,7 +16,7 @@
 
 namespace kage {
 
-/// What a token did to the pixel.
+/// A token's effect on the pixel.
 struct PixelTouch {
   std::uint32_t token = 0;  ///< index in its frame; the header is 0
   std::uint32_t nth = 0;    ///< the same among the tokens behind the front end: those that it makes count
@@ -49,7 +49,7 @@ struct TreeMatch {
   bool right_wins = false;    ///< the lesser depth, then the lesser draw index
 };
 
-/// What happened to a pixel from the frame's first token to its last.
+/// History of a pixel, from the frame's first token to its last.
 struct PixelHistory {
   int x = 0;                                 ///< which pixel
   int y = 0;                                 ///< which line

@@ -44,8 +44,8 @@ struct TokenOrigin {
   std::uint32_t volume = kNone;   ///< into FrameGeometry::volumes
 };
 
-/// Origins of a frame's spans, in the order of their tokens. Of FACE and SEG the draw index tells: the polyhedra in
-/// FrameGeometry::polyhedra.
+/// Origins of a frame's spans, in the order of their tokens. FACE and SEG are not here: their draw index already names
+/// the origin, by FrameGeometry::polyhedra.
 struct FrameOrigins {
   std::vector<TokenOrigin> opaque;       ///< of each OP
   std::vector<TokenOrigin> shadow;       ///< of each SP, NC, IF and EV
@@ -69,8 +69,8 @@ inline constexpr int kUsualActive = 512;
 /// How many ways there are.
 inline constexpr std::size_t kPolygonWays = 8;
 
-/// What a frame at the polygon level is made of. A drawn polygon and each face of a volume count by themselves; those
-/// that have no span do not count.
+/// Polygons of a frame at the polygon level, by the way they go. A drawn polygon and each face of a volume count by
+/// themselves; those that have no span do not count.
 struct PolygonReport {
   /// Polygons that go one way.
   struct Way {

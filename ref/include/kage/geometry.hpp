@@ -7,7 +7,7 @@
 /// Screen coordinates are 16.8 fixed point: x to the right, y down, (0, 0) the upper left corner of the upper left
 /// pixel, whose centre is (128, 128). All lie within +-(2^15 - 1) pixels. Depth is linear on the screen, smaller is
 /// nearer: 1 where it begins, 2^Z_BITS - 2 at the frame's furthest vertex. It begins at w0, the least distance at which
-/// the picture shows a face, rounded down so that it rarely changes from frame to frame and costs at most a bit.
+/// the picture shows a face, rounded down. So w0 rarely changes from frame to frame, and costs at most a bit.
 /// docs/numbers.md has the rule, and every rounding with its bound.
 #pragma once
 
@@ -67,8 +67,8 @@ struct ScreenPolygon {
   std::uint8_t alpha = 255;        ///< below 255: translucent
 };
 
-/// A line over the screen where a node's plane of the visibility order cuts a translucent polygon: a pixel (x, y) lies
-/// before the plane if a x + b y + c >= 0. |a|, |b| <= 2^30, |c| <= 2^58.
+/// A line over the screen, along which a node's plane of the visibility order cuts a translucent polygon.
+/// A pixel (x, y) lies before the plane if a x + b y + c >= 0. |a|, |b| <= 2^30, |c| <= 2^58.
 struct CutLine {
   std::int64_t a = 0;  ///< by x
   std::int64_t b = 0;  ///< by y
@@ -118,8 +118,8 @@ struct ShadowVolume {
   std::uint32_t sample = 0;      ///< of light that it keeps out, into FrameGeometry::sample_light
 };
 
-/// An edge of a polyhedron. Of the polygons at its two sides, `along` has it in its outline from `from` to `to`,
-/// `against` the other way round; one that is turned away, and not drawn, is kNoPolygon. [Ohno 1985: edge groups with
+/// An edge of a polyhedron, between two polygons. The outline of `along` has it from `from` to `to`, that of `against`
+/// the other way round. A polygon that is turned away, and so not drawn, is kNoPolygon. [Ohno 1985: edge groups with
 /// right and left face.]
 struct PolyhedronEdge {
   /// The number of no polygon.
@@ -192,7 +192,7 @@ enum class TranslucentWay : std::uint8_t {
   submission,  ///< whole, as the file has them
 };
 
-/// What the picture's maker decides.
+/// Choices of the picture's maker.
 struct Look {
   std::array<std::uint8_t, 3> background{38, 44, 56};  ///< as displayed: red, green, blue
   double darkening = 0.55;                             ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
@@ -248,13 +248,13 @@ struct GeometryOptions {
 
 /// Projects, clips and snaps a frame. docs/numbers.md has every rounding with its bound; [Matsumoto] has the volumes,
 /// [Ohno 1985] the polyhedra, [Tanaka 2005] the fragments. Throws Error if width or height is not 1 .. kMaxSize, if
-/// there are no faces, if a vertex, the camera, a light or the look is not as its type says, or if a light that is not
-/// at infinity is more than 2^40 times as far from the scene, or as large, as that is large; TooManyFragments as
-/// TranslucentOrder says.
+/// there are no faces, or if a vertex, the camera, a light or the look is not as its type says. Throws Error too if a
+/// light that is not at infinity is larger than 2^40 times the scene's size, or further from the scene than that.
+/// Throws TooManyFragments as TranslucentOrder says.
 /// @param frame what is drawn
-/// @param config says how fine depth is, whether colour may vary within a polygon (else each polygon has the mean of
-/// its corners), whether it is grey, whether shadows are wanted, of how many lights and samples, and whether
-/// translucent faces are blended (else they are opaque and drawn last)
+/// @param config says how fine depth is, whether colour is grey, whether shadows are wanted, and of how many lights
+/// and samples. It also says whether colour may vary within a polygon (else each polygon has the mean of its corners),
+/// and whether translucent faces are blended (else they are opaque and drawn last).
 /// @param width of the picture, in pixels
 /// @param height of the picture, in lines
 /// @param options how it is made

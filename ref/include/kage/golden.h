@@ -5,15 +5,17 @@
  * language that calls C. A frame's words go in; after each token the state of every pixel of the line can be read, and
  * each line's pixels as they leave. docs/benches.md has examples, docs/stream.md is the contract.
  *
- * Types are those that DPI-C maps: kage_golden* is chandle, int is int, unsigned int is int unsigned, long long is
- * longint, const char* is string, and a pointer to words is an unpacked array of int unsigned with a fixed size.
+ * Types are those that DPI-C maps:
+ * - kage_golden* is chandle,
+ * - int is int, unsigned int is int unsigned, long long is longint,
+ * - const char* is string,
+ * - a pointer to words is an unpacked array of int unsigned with a fixed size.
  *
- * Errors. No exception leaves the library. What cannot be done returns KAGE_GOLDEN_ERROR (or NULL), changes nothing
- * and leaves its cause for kage_golden_error(). An error in a frame's words is none of these: it is what the frame is
- * to have, KAGE_GOLDEN_FAILED with a status.
+ * Errors. No exception leaves the library. A call that cannot be served returns KAGE_GOLDEN_ERROR (or NULL), changes
+ * nothing and leaves its cause for kage_golden_error(). An error in a frame's words is none of these: it is the frame's
+ * proper outcome, KAGE_GOLDEN_FAILED with a status.
  *
- * With NULL for a core a function does nothing and returns KAGE_GOLDEN_ERROR, or what it returns where there is none of
- * what it is asked for.
+ * With NULL for a core a function does nothing and returns KAGE_GOLDEN_ERROR, or its value for "there is none".
  *
  * Threads. A core is for one thread at a time, its strings and pixels too. Different cores are independent.
  *
@@ -44,7 +46,7 @@ enum {
   KAGE_GOLDEN_FAILED = 3  /**< the frame has an error: words are ignored until kage_golden_finish() */
 };
 
-/** What kage_golden_pixel() gives instead of a value. */
+/** Results of kage_golden_pixel() that stand for no value. */
 enum {
   KAGE_PIXEL_ABSENT = -1, /**< the configuration has no such field, the line no such pixel, or there is no line */
   KAGE_PIXEL_ANY = -2     /**< never seen, so any value is right: class and (before a TP) colour of a clear pixel */
@@ -107,7 +109,7 @@ int kage_golden_word(kage_golden* core, unsigned int word);
  */
 int kage_golden_feed(kage_golden* core, const unsigned int* words, int count);
 
-/** The frame's words have all been given, TLAST with the beat of the last. What is given next is the next frame.
+/** The frame's words have all been given, TLAST with the beat of the last. The next words are the next frame's.
  * @param core whose frame
  * @return the error code of the frame (docs/stream.md, "Errors"), 0 if it has none */
 int kage_golden_finish(kage_golden* core);

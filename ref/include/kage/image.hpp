@@ -12,7 +12,7 @@
 
 namespace kage {
 
-/// What a core draws: 8 bits a channel, 1 (grey) or 3 (red, green, blue).
+/// A picture as a core draws it: 8 bits a channel, channels 1 (grey) or 3 (red, green, blue).
 struct Image {
   int width = 0;                   ///< in pixels
   int height = 0;                  ///< in lines

@@ -17,11 +17,11 @@ inline constexpr int kMaxSamples = 255;
 /// Most normals that a light table tells apart.
 inline constexpr int kMaxClasses = 2047;
 
-/// The points that stand for a light, so that the share of them which an edge keeps out, straight and anywhere, is
-/// nearly the share of the light that it keeps out. On a disc they lie on a golden spiral; on a rectangle on a lattice
-/// after the golden ratio, of which each of `samples` columns and rows of equal width has one; within a ball so that
-/// from every direction they are spread evenly over the disc that is seen. docs/lights.md, "Samples", says how near,
-/// and why. The same on every machine. [Matsumoto, section 6.]
+/// The points that stand for a light. A straight edge anywhere keeps out nearly the same share of the points as of the
+/// light. On a disc they lie on a golden spiral. On a rectangle they lie on a lattice after the golden ratio, one in
+/// each of `samples` columns and rows of equal width. Within a ball they are spread so that from every direction they
+/// are even over the disc that is seen. docs/lights.md, "Samples", says how near, and why. The same on every machine.
+/// [Matsumoto, section 6.]
 /// @param light any light
 /// @param samples 1 .. kMaxSamples
 /// @param seed turns the pattern of a disc or a ball, shifts that of a rectangle
@@ -34,7 +34,7 @@ std::vector<LightPoint> light_points(const Light& light, int samples, std::uint6
 /// @return share of its intensity that reaches the point, without regard to its angle there, >= 0
 double attenuation(const Light& light, const glm::dvec3& point);
 
-/// What a surface gets of a light.
+/// Light that a surface gets from one light.
 /// @param light any light
 /// @param point of the surface, in world space
 /// @param normal of the surface there, of length 1

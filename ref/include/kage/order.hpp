@@ -53,9 +53,9 @@ struct OrderBuildOptions {
   /// The build throws TooManyFragments above this many. Default: the larger of kFragments and four times the number of
   /// faces.
   std::optional<std::uint64_t> max_fragments = {};
-  /// Called now and then, several times a second, with the share of the work that is done, 0 .. 1, which never gets
-  /// less; never from two threads at once. What it throws ends the build and reaches the caller. The share is an
-  /// estimate: how much a set of fragments will still be cut is not known before it is.
+  /// Called several times a second, never from two threads at once, with the share of the work that is done, 0 .. 1,
+  /// which never falls. An exception from it ends the build and reaches the caller. The share is an estimate: how much
+  /// a set of fragments will still be cut is not known beforehand.
   std::function<void(double)> progress;
 };
 
@@ -74,7 +74,7 @@ class TooManyFragments : public Error {
   std::uint64_t limit_;
 };
 
-/// What building a tree took.
+/// Work that building a tree took.
 struct OrderBuildStats {
   std::uint64_t polygons = 0;     ///< given
   std::uint64_t flat = 0;         ///< of those, dropped because their area is exactly 0
@@ -98,15 +98,15 @@ struct OrderFragment {
   std::uint32_t face = 0;     ///< into OrderTree::face()
   std::span<const Cut> cuts;  ///< in the order of the way down
   /// Edge i goes from vertex i to the next. Below kCutEdge: along the face's edge from that corner to the next; else
-  /// along the plane of cuts[edge - kCutEdge]. So vertex i is exactly where edge i - 1 and edge i meet: a corner of the
-  /// face, a point of its edge on a node's plane, or the point of its plane on two nodes' planes.
+  /// along the plane of cuts[edge - kCutEdge]. So vertex i is exactly where edge i - 1 and edge i meet. It is a corner
+  /// of the face, a point of its edge on a node's plane, or the point of its plane on two nodes' planes.
   std::span<const std::uint32_t> edges;
   std::span<const OrderPoint> vertices;  ///< rounded, for drawing; counter-clockwise as the face
   /// From here on a number in `edges` is a cut's.
   static constexpr std::uint32_t kCutEdge = 0x80000000;
 };
 
-/// What the tree was built from: a polygon of the mesh, or a triangle of one.
+/// A face that the tree was built from: a polygon of the mesh, or a triangle of one.
 struct OrderFace {
   std::uint32_t polygon = 0;               ///< into OrderMesh::polygons
   std::span<const std::uint32_t> corners;  ///< into vertices(); consecutive ones at unlike places
@@ -219,7 +219,7 @@ enum class OrderWay : std::uint8_t {
   fast,            ///< vector tests, then exchange of what changed or a rebuild, whichever is cheaper
 };
 
-/// What one step did, and why.
+/// Report of one step: what it did, and why.
 struct OrderStep {
   /// Which nodes were tested.
   enum class Tests : std::uint8_t {
@@ -266,7 +266,7 @@ class VisibilityOrder {
     return order();
   }
 
-  /// Of the last move_to(). Recursion and the switching list fill in `tested`, `flips` and `exact`.
+  /// Report of the last move_to(). Recursion and the switching list fill in `tested`, `flips` and `exact`.
   /// @return what it did, and why
   [[nodiscard]] const OrderStep& last_step() const { return step_; }
 

@@ -60,7 +60,7 @@ struct DrawOptions {
   std::string name = {};         ///< what messages call the scene; empty: Scene::name()
 };
 
-/// What a frame of a scene was made of.
+/// Parts that a frame of a scene was made of.
 struct FrameParts {
   SceneFrame scene;           ///< what is drawn
   FrameGeometry geometry;     ///< the same on the screen
@@ -71,7 +71,7 @@ struct FrameParts {
 /// The frames of a scene. Order and shadows that do not change are kept from frame to frame, which changes no word.
 class SceneFrames : public FrameSource {
  public:
-  /// Drawn with a configuration. What it lacks of the scene's needs (needs_of(), lacks()) is left out of the picture.
+  /// Drawn with a configuration. Needs of the scene (needs_of()) that it lacks (lacks()) are left out of the picture.
   /// Throws Error if `options` are not as they say.
   /// @param scene what is drawn
   /// @param config a legal configuration
@@ -155,9 +155,9 @@ class StreamFrames : public FrameSource {
 /// @return what a configuration must have
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples = Look{}.samples);
 
-/// Chooses among the named configurations by a scene's first frame: of those that have all it needs, the first in
-/// listed order, unless a later one costs a tenth less, in clocks of that frame at 640x480 times look-up tables of
-/// the core; so the size that is asked for decides nothing but what has room for it.
+/// Chooses among the named configurations by a scene's first frame. It takes the first in listed order that has all the
+/// frame needs, unless a later one costs a tenth less. The cost is the clocks of that frame at 640x480 times the
+/// core's look-up tables, so the size that is asked for only decides which configurations have room for it.
 /// Configurations with UNITS, or with a processor for each pixel, are taken only where no other serves. Throws Error if
 /// none has all; it names the one that lacks the fewest things, and those.
 /// @param scene what is drawn

@@ -27,13 +27,13 @@ struct PlanPlace {
   int line = -1;   ///< from the top; -1: the whole frame
 };
 
-/// What may be wrong, at most.
+/// Largest errors that a picture may have.
 struct PlanLimits {
-  /// Of a pixel's stored depth against the exact depth of its polygon's plane, as a share of the depth range. Default:
-  /// a step of 24 bits.
+  /// Error of a pixel's stored depth against the exact depth of its polygon's plane, as a share of the depth range.
+  /// Default: a step of 24 bits.
   double z = 1.0 / ((1 << 24) - 3);
-  /// Of a pixel's colour against exact arithmetic, in steps of 8 bits: a whole number, at least 1, because a colour
-  /// next to the middle between two steps may fall to either side however small the error.
+  /// Error of a pixel's colour against exact arithmetic, in steps of 8 bits: a whole number, at least 1. A colour next
+  /// to the middle between two steps may fall to either side, however small the error.
   int color = 1;
   bool color_given = false;  ///< `color` is refused where no width keeps it; else the least that can be kept is taken
 };
@@ -46,8 +46,8 @@ enum class Prefer : std::uint8_t {
 };
 
 /// How much more than the least counts as equal, as a share: of clocks with Prefer::speed, of look-up tables with
-/// Prefer::area. Of measured cores whose estimates are nearer than that, the one that is estimated smaller is counted
-/// larger as often as smaller (`tools/area`, docs/plan.md).
+/// Prefer::area. Where the estimates of two measured cores are nearer than that, the one with the smaller estimate has
+/// the larger count as often as the smaller (`tools/area`, docs/plan.md).
 inline constexpr double kAsGood = 0.01;
 
 /// A display that the core has to keep up with.
@@ -90,7 +90,7 @@ struct PlanOptions {
   std::function<void(Config& widths, std::vector<PlanReason>& reasons)> lower{};
 };
 
-/// What a configuration costs for the planned frames.
+/// Cost of a configuration for the planned frames.
 struct PlanCost {
   std::uint64_t words = 0;       ///< of all frames, at the span level
   std::uint64_t clocks = 0;      ///< of all frames, by design (docs/rtl.md, "Clocks")

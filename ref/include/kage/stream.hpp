@@ -36,8 +36,9 @@ struct TokenCounts {
   TokenCounts& operator+=(const TokenCounts& other);
 };
 
-/// Checks a frame whose words come in pieces, as strictly as a file is: every field in its range, order of tokens, bits
-/// past the last field zero, no span whose depth or colour overflows its accumulator. On a fault feed() or finish()
+/// Checks a frame whose words come in pieces, as strictly as a file is. Fields must be in range and tokens in order,
+/// bits past the last field zero, and no span may overflow its depth or colour accumulator. On a fault feed() or
+/// finish()
 /// throws Error that names frame, line, token and byte offset; `where` opens the message and `offset` is that of the
 /// first word.
 class FrameChecker {
@@ -75,9 +76,9 @@ class FrameChecker {
 TokenCounts check_frame(const Config& config, std::span<const std::uint32_t> words, const std::string& where,
                         std::uint64_t offset, FrameHeader* header = nullptr);
 
-/// Writes a stream file. A file appears under its name only when finish() has succeeded; otherwise what was there
-/// stays. A pipe or a device gets each section once it is whole, a frame at a time: what it got of a stream that failed
-/// lacks the last section, DONE, so that no reader takes it for whole. Every error of writing is thrown as Error.
+/// Writes a stream file. A file appears under its name only when finish() has succeeded; otherwise an older file stays.
+/// A pipe or a device gets each section once it is whole, a frame at a time. If the stream fails, it never gets the
+/// last section, DONE, so no reader takes the stream for whole. Every error of writing is thrown as Error.
 class StreamFileWriter {
  public:
   /// Begins a file.

@@ -19,12 +19,15 @@ struct StreamPlace {
   int frame = 0;            ///< from 0
   std::optional<int> line;  ///< nothing in the header and the frame's state, before the lines, and behind the lines
   std::uint64_t token = 0;  ///< its index in the frame
-  std::string field;  ///< as docs/stream.md names it, "color[1]" for channel 1; "kind" where the tokens are of two
-                      ///< kinds, "token" or "frame" where one of the streams has none there; "header", "words" and
-                      ///< "bits behind the last field" of what breaks the rules of tokens, "section" where the words
-                      ///< are the same and one is FRAM, the other PORT
-  std::string a;      ///< the token in words, as to_string() has it
-  std::string b;      ///< likewise, of the second stream
+  /// The field as docs/stream.md names it, "color[1]" for channel 1. Other names stand for differences that no field
+  /// has:
+  /// - "kind": the tokens are of two kinds,
+  /// - "token" or "frame": one of the streams has none there,
+  /// - "header", "words" and "bits behind the last field": the words break the rules of tokens,
+  /// - "section": the words are the same and one is FRAM, the other PORT.
+  std::string field;
+  std::string a;  ///< the token in words, as to_string() has it
+  std::string b;  ///< likewise, of the second stream
 };
 
 /// How a frame of two streams compares.
@@ -40,8 +43,8 @@ struct FrameDiff {
   std::optional<StreamPlace> first;  ///< where the frames first differ
 };
 
-/// Outcome. Lines are matched by their number, and in a line all tokens are different from the first to the last one
-/// that is, in the stream that has more of them there: a token put in between counts once.
+/// Outcome. Lines are matched by their number. In a line all tokens from the first different one to the last count as
+/// different, in the stream that has more of them there: a token put in between counts once.
 struct StreamDiff {
   /// A parameter that is unlike.
   struct Parameter {
@@ -69,7 +72,7 @@ struct StreamDiff {
 };
 
 /// Compares two stream files. Both are checked whole, as StreamFile::frame() does, and Error is thrown where one is
-/// damaged. What is in memory is a frame of each, whatever the files' length.
+/// damaged. Only one frame of each is in memory, whatever the files' length.
 /// @param a the first stream
 /// @param b the second one
 /// @param each is called after each frame; what it throws goes through

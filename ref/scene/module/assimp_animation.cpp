@@ -19,7 +19,7 @@ void read_channel(const aiNodeAnim& channel, const NodeNames& node_of, const std
   const auto found = node_of.find(text(channel.mNodeName));
   if (found == node_of.end()) return;
   RawNode& node = scene.nodes[found->second];
-  // Keys replace the node's map. What has none keeps its part of it.
+  // Keys replace the node's map. Scale, rotation or position without keys keep their part of it.
   aiVector3D scale;
   aiQuaternion rotation;
   aiVector3D position;

@@ -26,7 +26,7 @@ class AssimpFiles : public Assimp::DefaultIOSystem {
   [[nodiscard]] const std::string& refused() const { return refused_; }
   /// A texture, by the name that a material has for it.
   void note_texture(const std::string& name) const { side_files_.note_texture(name); }
-  /// Those that were asked for and are there, and the textures.
+  /// The files that were asked for and are there, and the textures.
   [[nodiscard]] std::vector<std::string> files() const { return side_files_.files(); }
 
  private:

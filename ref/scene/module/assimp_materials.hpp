@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What Assimp says of materials, as far as it is drawn.
+// Materials by Assimp's data, as far as they are drawn.
 #pragma once
 
 #include <assimp/scene.h>
@@ -19,7 +19,7 @@ class AssimpMaterials {
   /// Gives a primitive what material `index` says, and counts the material once.
   void read(unsigned index, RawPrimitive& p);
 
-  /// What is not drawn as the file has it, of the materials that were read.
+  /// Numbers of materials, among those that were read, that are not drawn as the file has them.
   struct Counts {
     std::size_t emitting = 0;  ///< that give light over a colour that is not black
     std::size_t glossy = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// PLY, by Greg Turk's description, with the elements and properties that programs have agreed on: vertices with normals
-// and colours, faces with colours, strips of triangles. docs/scenes.md, "PLY", says what is read and what is not.
+// PLY, by Greg Turk's description. It reads the elements and properties that programs have agreed on: vertices with
+// normals and colours, faces with colours, strips of triangles. docs/scenes.md, "PLY", has the whole list.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -222,7 +222,7 @@ void PlyReader::read_vertices(const PlyElement& element) {
   }
 }
 
-/// What is there of red, green and blue; the others are 0.
+/// Reads red, green and blue; those that the file lacks are 0.
 void PlyReader::read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to) {
   if (!plan.has_color()) return;
   bool bright = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Lines of a text file with their numbers, and words that are read strictly: a word is a number as a whole or not at
-// all, so that "1,5" and "1.0D+01" are refused, whatever their beginnings say.
+// Lines of a text file with their numbers, and words that are read strictly. A word is a number as a whole or not at
+// all: "1,5" and "1.0D+01" are refused, though they begin like numbers.
 #pragma once
 
 #include <cstddef>

@@ -3,14 +3,14 @@
 // Included inside a module that has the pixel parameters and kage_widths.svh: what the buses between
 // modules are made of. Ports are vectors of ...Bits; within a module a bus has its type.
 
-// What a token says by itself: from token_facts to token_stage.
+// Facts that a token gives by itself: from token_facts to token_stage.
 typedef struct packed {
   logic [CodeBits-1:0] head_error;  // of a header, unless it is cut
   logic bad_range;  // xl > xr, a light that the core lacks, a shade of more than 1
   logic empty;  // xl = xr
 } facts_t;
 
-// What its frame says of a token: from token_reader to token_stage.
+// Facts about a token from its place in the frame: from token_reader to token_stage.
 typedef struct packed {
   logic header;  // the frame's first
   logic lacking;  // its kind is not in this configuration
@@ -20,7 +20,7 @@ typedef struct packed {
   logic [CodeBits-1:0] fault;  // what front_end has against it
 } flags_t;
 
-// What a token of a frame is to the front end: from polygon_token to front_end.
+// Role of a token in the front end: from polygon_token to front_end.
 typedef struct packed {
   logic at_token;  // an AT
   logic polygon;  // a POLYGON
@@ -51,7 +51,7 @@ typedef struct packed {
   logic [SlopeBits-1:0] dcolor;  // a pixel
 } made_span_t;
 
-// What a token is and finds, judged before it is acted on: from token_stage to frame_control.
+// Verdict on a token, found before it is acted on: from token_stage to frame_control.
 typedef struct packed {
   logic header;  // as in its flags
   logic cut;  // as in its flags
@@ -71,7 +71,7 @@ typedef struct packed {
   logic [DsfBits-1:0] bias;  // as the token finds it
 } verdict_t;
 
-// What the pixels of a range do: from token_command to the pixels.
+// Command to the pixels of a range: from token_command to the pixels.
 typedef struct packed {
   logic [KindBits-1:0] kind;  // of the token, or a command that is no token
   logic [X_BITS-1:0] xl;  // first pixel
@@ -109,7 +109,7 @@ typedef struct packed {
   logic last;  // of its line
 } load_t;
 
-// What happens to the tree in a clock: from frame_control to tree_core.
+// Events of a clock for the tree: from frame_control to tree_core.
 typedef struct packed {
   logic start;  // a frame begins
   logic flush;  // there will be no more of this frame

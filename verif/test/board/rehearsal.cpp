@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// First light, rehearsed: a board's whole top in simulation, with its PLL, SDRAM, serial line and the wires of its
-// screen, is played a pack on by the very functions of `kage board`; what a monitor at its socket shows is held against
-// the pack too. Then the same with a fault in the board, each of which must be found, and told where. Cases tagged
+// First light, rehearsed, on a board's whole top in simulation, with its PLL, SDRAM, serial line and the wires of its
+// screen. The very functions of `kage board` play a pack on it, and the picture of a monitor at its socket is held
+// against the pack too. Then the same with a fault in the board, each of which must be found and located. Cases tagged
 // [rehearse] are run by tools/rehearse, since most of them have to build a board.
 #include <fmt/format.h>
 
@@ -121,7 +121,7 @@ class Damaging : public Transport {
   unsigned count_ = 0;
 };
 
-/// What a screen shows that is not a frame of the pack; empty: nothing.
+/// The difference between a shown screen and the frames of the pack; empty: none.
 std::string wrong_on_screen(const Rig& rig, const ShownFrame& shown) {
   const Fixture& fixture_ = fixture(rig);
   const PackAnswers answers(fixture_.folder.path(), fixture_.pack);
@@ -160,7 +160,7 @@ void settle(SimBoard& board) {
   }
 }
 
-/// Plays the pack, and watches the screen for a few frames. What was found, in a line; "same": nothing.
+/// Plays the pack, and watches the screen for a few frames. Gives the fault that was found, in a line; "same": none.
 std::string rehearse(const SimBoardOptions& options, unsigned damage = 0, const Rig& rig = ulx3s()) {
   const auto board = open_sim_board(rig.board, options);
   const auto with_fault = [&](const std::string& told) {
@@ -198,7 +198,7 @@ std::string rehearse(const SimBoardOptions& options, unsigned damage = 0, const 
   }
 }
 
-/// Taps the reset button at any moment for any time, plays the pack then. What was found; "same": nothing.
+/// Taps the reset button at any moment for any time, plays the pack then. Gives the fault that was found; "same": none.
 std::string tap(const SimBoardOptions& options) {
   const auto board = open_sim_board(kBoard, options);
   try {

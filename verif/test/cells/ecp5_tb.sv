@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The models of verif/cosim/model/cells/ecp5.v beside yosys' own, which run.sh gives the names tool_...: the same
-// outputs for all or for random inputs. yosys has none of DP16KD and MULT18X18D: those are held against RTL alone
-// (pieces.sv).
+// outputs for all or for random inputs. Models of DP16KD and MULT18X18D are missing in yosys: those are held against
+// RTL alone (pieces.sv).
 `default_nettype none
 
 module cells_tb;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // RTL that becomes the cells of verif/cosim/model/cells: memories in shapes that take each width of a block RAM, LUT
-// RAM, products, chains of carries and wide choices, in the forms that the core has them. run.sh synthesizes it for a
-// family and plays the netlist beside it.
+// RAM, products, chains of carries and wide choices, in the forms that the core has them. Script run.sh synthesizes it
+// for a family and plays the netlist beside it.
 `default_nettype none
 
 module pieces #(

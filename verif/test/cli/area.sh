@@ -20,8 +20,8 @@ YOSYS=$PWD/broken trouble "yosys fails: ERROR: no such thing" "$kage" area tiny
 expect 0 "$kage" area --estimate
 [ "$(wc -l <stdout)" = "$("$kage" list configs | wc -l)" ] || fail "$(cat stdout)"
 KAGE=$kage expect 0 python3 "$source/tools/area" --check
-# How often it tells two cores' order is what docs/plan.md says, and within the one per cent that kage plan takes for equal as often as
-# not: within twice the spread of as many tosses of a coin.
+# It tells two cores' order as often as docs/plan.md says. Within the one per cent that kage plan takes for equal it is right as
+# often as not: within twice the spread of as many tosses of a coin.
 python3 - stdout "$source/docs/plan.md" <<'PY' || fail "docs/plan.md: how often the order of two cores is told rightly: $(grep pairs stdout)"
 import re, sys
 said = [re.sub(r"Banked, luts: of (\d+) pairs whose estimates are (\d+) to (\d+) % apart, .* in (\d+) %\n", r"| \2 to \3 % | \1 | \4 % |\n", line)

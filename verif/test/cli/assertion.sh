@@ -41,7 +41,7 @@ cp stdout 1.json
 expect 1 "$kage" merge 1.json --json m.json
 json m.json "j['first_difference']['assertion']=='$at'"
 
-# What the RTL says is that of one job: of the first frame that fails, not of those behind it.
+# The RTL's messages are those of one job: of the first frame that fails, not of those behind it.
 for jobs in 1 4; do
   expect 1 "$kage" cosim courtyard --frames 4 --size 64x48 --config small.yaml --no-divergence --no-report --jobs $jobs
   [ "$(grep -c 'Assertion failed' stderr)" = 1 ] || fail "--jobs $jobs: not one assertion's message: $(cat stderr)"
@@ -50,7 +50,7 @@ for jobs in 1 4; do
 done
 diff stdout1 stdout4 && diff stderr1 stderr4 || fail "four jobs tell something else than one"
 
-# What is looked for beside it does not stop at the assertion.
+# The search beside it does not stop at the assertion.
 x=$(python3 -c 'import json; d = json.load(open("v.json"))["first_difference"]["divergence"]; print(d["x"], d["line"], sep=",")')
 expect 0 "$kage" explain courtyard --size 64x48 --config small.yaml --pixel "$x" --rtl
 grep -q 'differs' stdout || fail "pixel $x: the difference is not marked"

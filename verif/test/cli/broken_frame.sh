@@ -15,7 +15,7 @@ python3 "$source/verif/test/cli/waveform_nets.py" out/courtyard_0000.gtkw || fai
 expect 1 "$kage" cosim polyhedra --config polyhedra --fault wrong_compare --frames 1 --size 160x120 --out tree
 python3 "$source/verif/test/cli/waveform_nets.py" tree/polyhedra_0000.gtkw || fail "GTKWave would not find the tree's nets"
 grep -q 'in_front = z <' "$source/rtl/include/kage_pixel_next.svh" || fail "docs/broken-frame.md names a line that is not there"
-# What is red there was lit: of the pixels that differ none is background.
+# The red pixels there were lit: no pixel that differs is background.
 PYTHONPATH=$source/verif/test/cli python3 - <<'PY' || fail "docs/broken-frame.md: pixels of the background differ"
 import sys
 from png import pixels

@@ -57,7 +57,7 @@ def stubs():
 
 
 def restore(place):
-    """What a runner restores: models of the common cache, and verdicts of this test."""
+    """Restores as a runner does: models of the common cache, and verdicts of this test."""
     (place / "kage").mkdir(mode=0o700, parents=True)
     for name, of in {"models": cache, "verilator": cache, "verdicts": Path("cache").resolve()}.items():
         (of / name).mkdir(mode=0o700, parents=True, exist_ok=True)
@@ -239,7 +239,7 @@ regression = results.parent / "regress" if system == "github" else results
 told = json.loads((regression / "regress.json").read_text())
 assert told["same"] is (verdict == 0) and (regression / "regress.xml").is_file(), told
 assert (regression / "regress/report.html").is_file()
-# What is kept has the pages that the joined one links to.
+# The kept results have the pages that the joined one links to.
 text = (results / "joined/report.html").read_text()
 links = [
     r["page"] for p in json.loads(re.search(r'id="data">(.*?)</script>', text, re.S)[1])["parts"] for r in p["runs"]

@@ -8,7 +8,7 @@ temp=$(mktemp -d)
 trap 'rm -rf "$temp"' EXIT
 cd "$temp" || exit 1
 failures=0
-# What is printed is not to depend on how slow the machine is.
+# No lines of progress: their number depends on how slow the machine is.
 export KAGE_PROGRESS=0
 
 fail() {
@@ -71,9 +71,9 @@ list_without_widest() {
   sed -i '/^widest:/,/^$/d' "$1/rtl/defs/configs.yaml"
 }
 
-# rtl_with FOLDER STATEMENT: from now on the data are a copy whose kage_top has the statement, which gives what leaves the core:
-# `sent` and `sending` are its pixels and their valid, frames_q the frames that it has begun to send since its reset (255: or
-# more), u_control.frame_q the number of the frame it is at.
+# rtl_with FOLDER STATEMENT: from now on the data are a copy whose kage_top has the statement, which gives the core's output.
+# The names for it: `sent` and `sending` are the pixels and their valid. The counter frames_q has the frames that the core has
+# begun to send since its reset (255: or more). The frame at hand has the number u_control.frame_q.
 rtl_with() {
   data_copy "$1"
   python3 - "$1/rtl/kage_top.sv" "$2" <<'PY' || fail "the RTL is not what this test edits"

@@ -94,7 +94,7 @@ for ((i = 0; i < 50; ++i)); do
 done
 [ $rc = 130 ] || fail "never interrupted after the verdict"
 
-# What an earlier run found wrong is gone once it is right.
+# Evidence of an earlier run is gone once a run finds nothing wrong.
 expect 1 "$kage" cosim courtyard --size 64x48 --frames 2 --fault wrong_compare --out again
 grep -q '<title>different: .* pixels compared, with --fault wrong_compare - courtyard</title>' again/report.html || fail "the head of the report does not name the fault"
 [ -s again/courtyard_0000.fst ] && [ -s again/courtyard_0000_actual.png ] || fail "no evidence of a difference"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What kage cosim does for continuous integration: shards and kage merge, JUnit XML, annotations, progress in a pipe.
+# kage cosim for continuous integration: shards and kage merge, JUnit XML, annotations, progress in a pipe.
 . "$(dirname "$0")/common.bash"
 unset GITHUB_ACTIONS
 
@@ -133,7 +133,7 @@ assert smart.startswith("\r\033[K") and smart.endswith("\r\033[K") and "\n" not 
 assert "\033" not in dumb and dumb.endswith("\n") and "frame 5/5" in dumb, dumb
 PY
 
-# What makes no sense: one line.
+# Options that make no sense: one line.
 for shard in 0/2 3/2 2 /2 1/ 1/2/3 a/b 1/-2 1/0 -1/2; do trouble "--shard" "$kage" cosim "${run[@]}" --out none --shard=$shard; done
 trouble "--shard 7/8: courtyard has only 5 frames" "$kage" cosim "${run[@]}" --out none --shard 7/8
 trouble "--annotate" "$kage" cosim "${run[@]}" --out none --annotate gitlab

@@ -35,7 +35,7 @@ arrangement lanes8 "$small, UNITS: 4, LANES: 8, BEAT_WORDS: 4"
 arrangement systolic "$small, UNITS: 4, ARRANGEMENT: 0, BEAT_WORDS: 2"
 printf 'clocks of fifteen: %s\n' "${cycles[*]}"
 
-# Of a stream file the same is said as of its scene.
+# The report on a stream file is that on its scene.
 expect 0 "$kage" stream fifteen --size 48x36 --frames 2 --config lanes4.yaml --out fifteen.kage
 expect 0 "$kage" cosim fifteen.kage --json of_stream.json --out of_stream
 json of_stream.json 'j["same"] is True and j["units"]==3 and all(j[k]==json.load(open("lanes4.json"))[k] for k in ("segments", "polyhedra", "spans"))'
@@ -47,7 +47,7 @@ for scene in polyhedra fifteen; do
   json classic.json 'j["same"] is True and j["segments"]>3*36 and j["units"]==3'
 done
 
-# What finds no unit is refused by name, if asked for.
+# A polyhedron that finds no unit is refused by name, if asked for.
 trouble "--units-only" "$kage" cosim polyhedra --units-only --size 48x36 --frames 1 --config lanes4.yaml --out none
 [ ! -e none ] || fail "a refused run leaves a folder"
 done_testing

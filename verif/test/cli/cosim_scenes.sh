@@ -30,7 +30,7 @@ json whole.json 'all(len(s["each"])==4 and sum(f["cycles"] for f in s["each"])==
 json whole.json 'all(s["options"]["order"]=="exact" and s["again"].startswith("kage cosim courtyard inside ") for s in j["scenes"])'
 cases whole.xml "$all"
 
-# Of three shards over the eight frames the second begins with inside's frame 0; all have each frame once, as the whole.
+# With three shards over the eight frames the second begins with inside's frame 0; all have each frame once, as the whole.
 for i in 1 2 3; do
   expect 0 "$kage" cosim "${run[@]}" --out $i --shard $i/3 --json $i.json --junit $i.xml
 done
@@ -83,7 +83,7 @@ expect 0 "$kage" merge "moved/a b/1.json" moved/2.json moved/3.json --out moved/
 links moved/joined/report.html 1
 mv 2-away 2 && mv 3-away 3
 
-# What the joined page would take the place of stays, and what is refused leaves nothing.
+# A file that the joined page would replace stays, and a refused run leaves nothing.
 cp 1/courtyard/report.html kept.html
 trouble "1/courtyard/report.html: is the page of 1.json: it is not written over" "$kage" merge 1.json 2.json 3.json --out 1/courtyard
 cmp -s kept.html 1/courtyard/report.html || fail "a shard's page was written over"

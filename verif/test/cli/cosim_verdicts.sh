@@ -25,7 +25,7 @@ cosim() {
   [ "$taken" != 0 ] || ! grep -q "earlier runs" stdout || fail "$*: none is taken, and yet: $(cat stdout)"
 }
 
-# What a run with verdicts says is what the run without them says, clocks and pictures too.
+# The output of a run with verdicts is that of the run without them, clocks and pictures too.
 plain() {
   python3 - "$1" <<'PY'
 import json, sys
@@ -223,7 +223,7 @@ fi
 rm -rf "$verdicts" && mv aside "$verdicts"
 cosim 0 5 0
 
-# What an interrupted run has finished is kept, and no more.
+# The frames that an interrupted run has finished are kept, and no more.
 rm -rf "$verdicts"
 long=(courtyard --size 64x3000 --frames 30 --config small.yaml --out long --no-report --cache-verdicts)
 "$kage" cosim "${long[@]}" >/dev/null 2>&1 &

@@ -28,7 +28,7 @@ png("black.png", 8, 6, [0] * (8 * 6 * 3))
 png("gamma.png", 8, 6, base, chunk(b"gAMA", struct.pack(">I", 100000)))
 for bits in (4, 8, 16):
     grey("grey%d.png" % bits, 8, 6, bits)
-# What PNG says of its numbers, chunk by chunk: two files that differ in it, and one that says nothing.
+# PNG's chunks about its numbers, one by one: two files that differ in it, and one without.
 for tag, one, other in ((b"cICP", bytes([9, 16, 0, 1]), bytes([9, 18, 0, 1])), (b"sRGB", b"\0", b"\1"),
                         (b"gAMA", struct.pack(">I", 45455), struct.pack(">I", 45454)), (b"sBIT", b"\5\6\5", b"\5\5\5"),
                         (b"mDCV", bytes(range(24)), bytes(24)), (b"cLLI", struct.pack(">II", 1000, 400), bytes(8)),

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage render --error-map from outside: pixels of a map, its line and its JSON say the same, and the same as a row of kage
-# sweep for the same point; what is as fine as it can be has no map; what has no scene is refused in one line.
+# kage render --error-map from outside. Pixels of a map, its line and its JSON say the same, and the same as a row of kage sweep
+# for the same point. A drawing that is as fine as it can be has no map; an input without a scene is refused in one line.
 . "$(dirname "$0")/common.bash"
 
 # coloured FILE KIND: how many pixels of a map that is 160 wide, and so shown four times as large, have a colour of the kind,
@@ -101,7 +101,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n
 expect 0 "$kage" render grey.obj --size 64x48 --frames 1 --config full --error-map --out grey --json grey.json
 json grey.json 'j["errors"][0]["color_wrong"] == j["errors"][0]["sources"]["color"]["color_wrong"] < 64 * 48 / 4'
 
-# What has no scene.
+# Inputs without a scene.
 "$kage" stream courtyard --size 64x48 --frames 1 --config default --out small.kage >/dev/null
 trouble "small.kage: --error-map: what is wrong is told from the scene" "$kage" render small.kage --error-map --out none
 "$kage" vectors courtyard --size 64x48 --frames 1 --config default --out pack >/dev/null

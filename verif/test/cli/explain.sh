@@ -54,7 +54,7 @@ text = open(sys.argv[3]).read()
 assert f"{len(w['touches'])} tokens touch it; {len(changed)} are shown, where something changed\n" in text
 assert all(("\n%8d  " % t["token"] in text) == (t in changed) for t in w["touches"]) and c["color_text"] in text
 PY
-# What the RTL does at tokens that do not touch the pixel is told too: a line's first TP paints beside its span as well.
+# The RTL's work at tokens that do not touch the pixel is shown too: a line's first TP paints beside its span as well.
 beside=0
 for pixel in 20,60 80,60 140,60 80,20 80,100; do
   expect 0 "$kage" explain glass --size 160x120 --pixel $pixel --rtl --json r.json

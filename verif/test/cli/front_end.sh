@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage cosim --front-end rtl: a core that makes spans of polygons, with random frames of both levels, sound and damaged, and
-# with a scene, of which every stage is held against the golden core: the front end's spans token by token.
+# kage cosim --front-end rtl: a core that makes spans of polygons. It gets random frames of both levels, sound and damaged, and a
+# scene. Every stage of the scene is held against the golden core: the front end's spans token by token.
 . "$(dirname "$0")/common.bash"
 
 echo '{LANES: 4, X_BITS: 6, MAX_WIDTH: 40, ACTIVE: 6}' >small.yaml
@@ -41,7 +41,7 @@ expect 1 env KAGE_DATA_DIR="$PWD/data" "$kage" cosim courtyard --front-end rtl -
 grep -q 'the pixels are the same, and a stage is not: output of a module$' stdout || fail "no stage: $(cat stdout)"
 grep -q 'first divergence: .*rtl/polygon_walk.sv), output: .*\[40, 41)' stdout || fail "no divergence: $(cat stdout)"
 json d.json 'not j["same"] and j["first_difference"]["field"] == "stage"'
-# What the RTL does stands below the span that it does it with, also where several are made of one token.
+# The RTL's events stand below the span that they belong to, also where several spans are made of one token.
 for pixel in 40,20 40,40 20,45 60,50; do
   expect 0 "$kage" explain courtyard --front-end rtl --config front.yaml --size 80x60 --pixel $pixel --rtl
   cat stdout

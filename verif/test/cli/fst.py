@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads FST waveforms as Verilator writes them.
 
-The writer packs hierarchy and values by LZ4, whose block's format is in the LZ4 project's lz4_Block_format.md; the file's own
-format is that of GTKWave's fstapi.c: blocks of a tag and a length, numbers of a variable length by 7 bits, and for each net the
-chain of its changes.
+The writer packs hierarchy and values by LZ4, whose block's format is in the LZ4 project's lz4_Block_format.md. The
+file's own format is that of GTKWave's fstapi.c: blocks of a tag and a length, numbers of a variable length by 7 bits,
+and for each net the chain of its changes.
 """
 
 import struct
@@ -180,7 +180,7 @@ class Fst:
 
 
 def chain(table, end):
-    """Of each net where its changes lie, and their length: 0 for none."""
+    """Where the changes of each net lie, and their length: 0 for none."""
     where, lengths, place, last, alias = [], [], 0, None, 0
     while table.at < len(table.data):
         if table.data[table.at] & 1:

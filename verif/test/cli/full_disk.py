@@ -110,8 +110,9 @@ WHOLE = {
 
 
 class Writer:
-    """A command that writes into the folder OUT. `codes` are its exit codes where all is well. What `may_miss` ends with may stay
-    away, as the verdict does not depend on it, where a line says why: "no ... was written"."""
+    """A command that writes into the folder OUT. `codes` are its exit codes where all is well. Files whose names end
+    with one of `may_miss` may stay away, as the verdict does not depend on them, where a line says why: "no ... was
+    written"."""
 
     def __init__(self, name, *command, codes=(0,), may_miss=()):
         self.name, self.command, self.codes, self.may_miss = name, command, codes, may_miss
@@ -120,7 +121,7 @@ class Writer:
         return kage(*(str(c).replace("OUT", str(folder)) for c in self.command), **more)
 
     def learn(self):
-        """What it writes where there is room."""
+        """Learns which files it writes where there is room."""
         self.good = HERE / f"good-{self.name}"
         self.good.mkdir()
         done = self.run(self.good)
@@ -284,7 +285,7 @@ def model_cache():
 
 
 def inputs():
-    """What the writers take, made where there is room."""
+    """The inputs of the writers, made where there is room."""
     small = ("--size", "96x72")
     for command in (
         ("stream", "courtyard", *small, "--frames", 3, "--out", "c.kage"),
@@ -302,7 +303,7 @@ def inputs():
     mesh += "".join(f"f {12 * y + x + 1} {12 * y + x + 2} {12 * y + x + 13}\n" for y in range(11) for x in range(11))
     pathlib.Path("mesh.obj").write_text(mesh)
     pathlib.Path("old").write_text("of an earlier run\n")
-    # What is compared with new files has to be of their kind.
+    # Files that are compared with new ones have to be of their kind.
     Writer.old = {"": HERE / "old", ".png": HERE / "stale/courtyard_0000.png"}
 
 

@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Frames and bands of lines flow through: peak memory grows neither with a frame's height nor with the number of frames.
-# A large mesh with shadows stays below 1 GiB. The tall frames hold 38 MB of pixels more, or 56 MB of words (knot), and the
-# many nearly as much: what keeps either is seen. Programs begin at some 12 MB, and Python, which starts them, at 14. The
-# first frames of a run take up to 6 MB until every thread and queue has what it uses again and again, so it is a run of
-# four to which the others are held.
+# Frames and bands of lines flow through: peak memory grows neither with a frame's height nor with the number of frames. A large
+# mesh with shadows stays below 1 GiB. The tall frames hold 38 MB of pixels more, or 56 MB of words (knot), and the many nearly
+# as much: what keeps either is seen. Programs begin at some 12 MB, and Python, which starts them, at 14. The first frames of a
+# run take up to 6 MB until every thread and queue has the memory that it uses again and again. So the others are held against a
+# run of four.
 . "$(dirname "$0")/common.bash"
 
-# least VARIABLE COMMAND...: the command's peak resident memory in KiB, and of what the variable holds already, the smaller.
-# What a program keeps it keeps every time; how far two threads are apart when the allocator asks for more is chance. So a limit
-# is passed if one run of three keeps it.
+# least VARIABLE COMMAND...: the smaller of the command's peak resident memory in KiB and the variable's value, if it has one. A
+# program that keeps memory keeps it every time; how far two threads are apart when the allocator asks for more is chance. So a
+# limit is passed if one run of three keeps it.
 least() {
   local -n kept=$1
   local peak

@@ -126,7 +126,7 @@ expect 0 "$kage" cache prune --older-than 120000d # more nanoseconds than 64 bit
 expect 0 "$kage" cache prune --older-than 1d --json p.json
 json p.json "len(j['models']) == 1 and j['left'] == {'models': 0, 'bytes': 0}"
 [ -z "$(find "$models" -type f)" ] || fail "prune left: $(find "$models" -type f)"
-# What belongs to no model is counted and goes too.
+# Files that belong to no model are counted and go too.
 echo "a build that failed" >"$models/gone.log" && : >"$models/gone.lock" && touch -d '400 days ago' "$models"/gone.*
 touch -d '400 days ago' cache/kage/verilator/*/*
 expect 0 "$kage" cache --json c.json

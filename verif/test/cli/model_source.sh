@@ -8,7 +8,7 @@ echo '{MAX_WIDTH: 64, LANES: 2, BEAT_WORDS: 1}' >small.yaml
 expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --config small.yaml --out s.kage
 export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
 
-# What make and compilers would take from the environment is no part of the name, so the model must not have it.
+# The environment of make and compilers is no part of the name, so the model must not depend on it.
 CXXFLAGS=--no-such-flag OPT=--no-such-flag LDFLAGS=--no-such-flag MAKEFLAGS=n "$kage" model small.yaml >built 2>&1 &
 until compgen -G 'cache/kage/models/*.lock' >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.05; done
 [ -z "$(find cache -name '*.so')" ] || fail "the model was there before its sources could change"
@@ -18,7 +18,7 @@ patch -s --no-backup-if-mismatch -R -p1 -d data -i "$source/verif/cosim/model/fa
 expect 0 "$kage" cosim s.kage --no-report --out out
 [ "$(find cache -name '*.so' | wc -l)" = 1 ] || fail "the sources are as they were, and there are these models: $(find cache -name "*.so")"
 
-# What is there is found without Python, and its key is of what the model is made of (driver/sources.yaml), and of nothing else.
+# A model that is there is found without Python. Its key is of the model's sources (driver/sources.yaml), and of nothing else.
 mkdir tools && printf '#!/bin/sh\necho "python3 runs"\nexit 1\n' >tools/python3 && chmod +x tools/python3
 # there FILE: whether a model is there once a line more is in the file, which is taken away again.
 there() {
@@ -59,7 +59,7 @@ CXX="env c++ -DNOTHING" expect 0 "$kage" cosim s.kage --no-report --out out --js
 [ "$(find cache -name '*.so' | wc -l)" = 2 ] || fail "other tools, and the model is that of before"
 json j.json "any('c++' in v or 'g++' in v or 'clang' in v for v in j['versions'])"
 
-# What does not build is named where a person finds it.
+# A source that does not build is named where a person finds it.
 sed -i 's/^module frame_control/modul frame_control/' data/rtl/frame_control.sv
 trouble "$PWD/data/rtl/frame_control.sv:" "$kage" model small.yaml
 [ -z "$(find cache -name '*.[0-9]*' -type d)" ] || fail "something is left of a build"

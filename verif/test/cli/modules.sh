@@ -3,7 +3,7 @@
 # Large libraries are bound by those commands alone that need them, and a module that is missing or of another build is a line.
 . "$(dirname "$0")/common.bash"
 
-# What every command binds: OpenImageIO and Assimp with all that they stand on were 264 libraries, and 0.3 s.
+# Libraries that every command binds: OpenImageIO and Assimp with all that they stand on were 264 libraries, and 0.3 s.
 bound=$(LD_TRACE_LOADED_OBJECTS=1 "$kage" | grep -v -E 'asan|ubsan')
 [ "$(wc -l <<<"$bound")" -le 20 ] || fail "every command binds: $bound"
 if grep -E 'OpenImageIO|assimp|OpenEXR|libav' <<<"$bound"; then fail "every command binds what few need"; fi

@@ -43,7 +43,7 @@ expect 0 "$kage" stream "${run[@]}" --max-fragments "$fragments" --out few.kage
 trouble "more than $((fragments - 1)) fragments" "$kage" stream "${run[@]}" --max-fragments $((fragments - 1)) --out none
 expect 0 "$kage" explain "${run[@]}" --max-fragments "$fragments" --pixel 30,20
 trouble "few.kage: --max-fragments: a stream has its fragments already" "$kage" render few.kage --max-fragments 5
-# What needs no order needs no limit.
+# A run that needs no order needs no limit.
 expect 0 "$kage" stream "${run[@]}" --max-fragments 5 --order centroid --out whole.kage
 
 # Progress, once for a tree that is kept: percentages that never get less, and lines in no more than the asked-for pace.

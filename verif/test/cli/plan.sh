@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage plan from outside: its file runs, its reasons are there, what cannot be is refused in one line; the choice without
-# --config depends on nothing but scene and look; --config plan and kage model --plan.
+# kage plan from outside: its file runs, its reasons are there, impossible requests are refused in one line. The choice without
+# --config depends on nothing but scene and look. Also --config plan and kage model --plan.
 . "$(dirname "$0")/common.bash"
 
 # The plan's file is a configuration, and the RTL draws what the golden core draws by it.
@@ -108,7 +108,7 @@ for case in "courtyard --size 160x120" "courtyard --size 1x1" "knot --size 1x1 -
   ! grep -qE '(^|[^0-9.])1 (lines|lights|steps|bits hold|pixels|samples|classes|volumes)' stdout || fail "$case: $(cat stdout)"
 done
 
-# What render says of a mesh, plan says as well, in comments.
+# Notes that render gives on a mesh stand in the plan as well, in comments.
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >mesh.obj
 expect 0 "$kage" plan mesh.obj --size 64x48 --frames 1 --json notes.json
 grep -q '^# mesh: no light: a directional one is added$' stdout || fail "$(cat stdout)"

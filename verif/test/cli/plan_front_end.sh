@@ -45,7 +45,7 @@ assert round(plan["cost"]["words_per_frame"] * plan["frames"]) == spans["words"]
 assert said[1] == f"{spans['words'] / polygons['words']:.1f}", (said[1], spans["words"], polygons["words"])
 assert plan["reasons"]["ACTIVE"].startswith(f"{plan['config']['ACTIVE']} polygons at once in frame ")
 PY
-  # What the front end makes are the very spans.
+  # The front end makes the very same spans.
   expect 0 "$kage" diff spans.kage fits.kage
 done
 
@@ -63,7 +63,7 @@ expect 0 "$kage" cosim courtyard "${small[@]}" --front-end rtl --config plan --n
 json run.json "j['same'] and j['config']['ACTIVE']==$active"
 grep -q '^kage: the RTL model of .* is there$' stderr || fail "--config plan has another core than the file: $(cat stderr)"
 
-# Of several scenes the one that has most at once decides, and the reason names it.
+# With several scenes the one that has most at once decides, and the reason names it.
 expect 0 "$kage" plan inside courtyard "${small[@]}" --front-end rtl --json json/plan.both.json
 cp stdout both.yaml
 active=$(sed -n 's/^ACTIVE: \([0-9]*\) .*/\1/p' both.yaml)

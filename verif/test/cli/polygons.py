@@ -1,9 +1,17 @@
 # SPDX-License-Identifier: Apache-2.0
-"""polygons.py SOURCE: writes polygons.kage, a frame at the polygon level made by hand, spans.kage, the spans that it comes to,
-and broken.kage, where an edge has no polygon (PORT). Of the first there are variants: other.kage, edge.kage and place.kage with
-one depth, one edge and one place of another value, fewer.kage without a polygon, smaller.kage of a core that keeps fewer polygons,
-two.kage with two frames of which the second is edge.kage's, same.kage with the first twice, mixed.kage with its second frame as spans. The words are read back,
-and the golden core draws the first two alike."""
+"""polygons.py SOURCE: writes polygons.kage, a frame at the polygon level made by hand; spans.kage, the spans that it comes to;
+and broken.kage, where an edge has no polygon (PORT). Variants of polygons.kage:
+
+  other.kage    one depth has another value
+  edge.kage     one edge has another value
+  place.kage    one place has another value
+  fewer.kage    without a polygon
+  smaller.kage  of a core that keeps fewer polygons
+  two.kage      two frames, of which the second is edge.kage's
+  same.kage     the first frame twice
+  mixed.kage    two.kage with its second frame as spans
+
+The words are read back, and the golden core draws the first two files alike."""
 
 import sys
 

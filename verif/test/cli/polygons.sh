@@ -34,7 +34,7 @@ expect 1 "$kage" diff polygons.kage other.kage --json diff.json
 grep -q 'first difference: frame 0, line 1, token 4, field value' stdout || fail "diff: $(cat stdout)"
 grep -q 'A: POLYGON value 1000 right 2' stdout || fail "diff: $(cat stdout)"
 json diff.json 'not j["same"] and j["expanded_frames"] == 0 and j["different_tokens"] == 1'
-# What the front end refuses has no spans to be compared by.
+# A stream that the front end refuses has no spans to be compared by.
 expect 1 "$kage" diff broken.kage spans.kage
 grep -q 'field magic_version' stdout || fail "diff: $(cat stdout)"
 expect 1 "$kage" diff polygons.kage broken.kage
@@ -113,7 +113,7 @@ json explain.json 'all(t["made"] for t in j["touches"] if t["kind"] in ("OP", "S
 expect 0 "$kage" explain spans.kage --pixel 5,2 --json explain.json
 json explain.json 'len(j["touches"]) > 3 and not any(t["made"] for t in j["touches"])'
 
-# Of what is made only what changed something.
+# With --changes, only made tokens that changed something.
 expect 0 "$kage" explain polygons.kage --pixel 9,1 --json explain.json
 expect 0 "$kage" explain polygons.kage --pixel 9,1 --changes --json changes.json
 python3 - <<'PY' || fail "--changes does not show what changed something"
@@ -122,8 +122,8 @@ a, b = (json.load(open(f))["touches"] for f in ("explain.json", "changes.json"))
 assert b == [t for t in a if t["before"] != t["after"] or t["kind"] == "IF"] and all(t["made"] for t in b) and 0 < len(b) < len(a), (a, b)
 PY
 
-# Of a scene a pixel has the same history at both levels, and all of it comes of the same parts of the scene: spans that the
-# front end makes, of which several have the index of one token, and those that go on as they came.
+# A pixel of a scene has the same history at both levels, and all of it comes from the same parts of the scene. The front end
+# makes some spans, several with the index of one token; others go on as they came.
 python3 - "$kage" <<'PY' || fail "histories at the polygon level are not those of the span level"
 import json, random, subprocess, sys
 chance = random.Random(1)

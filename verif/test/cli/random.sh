@@ -16,7 +16,7 @@ json other.json 'j["pixels_compared"] != json.load(open("random.json"))["pixels_
 expect 0 "$kage" cosim random:damaged --frames 60 --config small.yaml --frame 59 --out sound --json alone.json
 json alone.json 'j["frames"] == 1 and j["first_frame"] == 59'
 
-# What is reached.
+# The coverage that is reached.
 expect 0 "$kage" cosim random:mixed --frames 300 --config small.yaml --coverage --out sound --json c.json
 json c.json 'j["coverage"]["frames"] == 300 and all(p["frames"] > 0 for p in j["coverage"]["points"] if p["group"] == "token")'
 grep -q 'OP as deep as what it meets .* of 300 frames' stdout || fail "no coverage told: $(cat stdout)"
@@ -51,7 +51,8 @@ expect 0 "$kage" merge part2.json part3.json part1.json --json joined.json
 grep -q '^same: 41 frames of 41 in 3 shards, up to ' stdout && grep -q '^token:$' stdout || fail "joined: $(cat stdout)"
 json joined.json 'all(j[k] == json.load(open("whole.json"))[k] for k in ("width", "height", "pixels_compared", "spans", "coverage"))'
 
-# What takes two frames in the core at once is not located, and the output says so, whichever of them has wrong pixels.
+# A difference that takes two frames in the core at once is not located, and the output says so, whichever of them has wrong
+# pixels.
 mixed=("$kage" cosim random:mixed --config small.yaml --fault lost_token --idle 30 --backpressure 30)
 expect 1 "${mixed[@]}" --seed 189 --out mixed --json behind.json
 json behind.json 'j["first_difference"]["frame"] == 0 and j["first_difference"]["line"] == 0'
@@ -114,8 +115,8 @@ for seed in {1..25}; do
   expect 0 "$kage" cosim random:mixed --frames 3 --config small.yaml --seed "$seed" --no-report --out mixed
 done
 
-# The frames that the register check sends of its own fit into lines of any length, segments of any length and beats of
-# any width (unit/cosim/register_frames has all corners): what they tell of sound RTL there.
+# The frames that the register check sends of its own fit into lines of any length, segments of any length and beats of any width
+# (unit/cosim/register_frames has all corners). Sound RTL passes them.
 for corner in 'MAX_WIDTH: 7, X_BITS: 4, LANES: 4' 'MAX_WIDTH: 1, X_BITS: 4, LANES: 4' \
   'MAX_WIDTH: 1, X_BITS: 4, ARRANGEMENT: 0, UNITS: 2, FACE_BITS: 2, DX_BITS: 2, SEG_BITS: 2, BEAT_WORDS: 8' \
   'MAX_WIDTH: 40, X_BITS: 6, LANES: 8, UNITS: 3, FACE_BITS: 2, DX_BITS: 2, SEG_BITS: 2' \

@@ -128,7 +128,7 @@ before=$(sums)
 expect 1 ${again/#kage /$kage } --no-divergence
 [ "$(sums)" = "$before" ] || fail "the frame by its line touches the evidence: $again"
 
-# What is read is not written over, and nothing takes the name of a file that the run writes.
+# An input is not written over, and nothing takes the name of a file that the run writes.
 for option in --json --junit; do
   trouble "small.yaml: this output would overwrite an input" "$kage" regress --rounds 1 --config small.yaml --config tiny $option ./small.yaml
 done
@@ -139,7 +139,7 @@ for option in "--json -" "--junit x.xml" "--jobs 2" "--minutes 1"; do
   trouble "--list" "$kage" regress --list $option
 done
 
-# What is told of a difference is told of the runs up to it: more jobs begin more runs, and rounds, behind it.
+# The report on a difference covers the runs up to it: more jobs begin more runs, and rounds, behind it.
 for jobs in 1 16; do
   expect 1 "$kage" regress --rounds 5 --config tiny --fault dead_garbage --no-divergence --jobs $jobs --out dead --json dead$jobs.json
   grep -q '^different: 1 run of 1 round, ' "$temp/stdout" || fail "--jobs $jobs: $(cat "$temp/stdout")"
@@ -188,7 +188,7 @@ expect 1 "$kage" regress --rounds 1 --config tiny --fault dead_garbage --no-dive
 grep -q '^random.tiny.0 was not repeated: ' "$temp/stdout" && grep -q '^first difference: ' "$temp/stdout" ||
   fail "without a folder for the evidence: $(cat "$temp/stdout")"
 
-# What it refuses, in one line.
+# Refusals, in one line.
 trouble "--config: two configurations are called small" "$kage" regress --config small.yaml --config other/small.yaml --rounds 1
 trouble "nosuch" "$kage" regress --config nosuch --rounds 1
 trouble "--minutes" "$kage" regress --minutes 0

@@ -143,7 +143,7 @@ json j.json 'j["lights"]==[] and j["materials"]=={"all": 1, "translucent": 0, "u
 json j.json 'any("FOO_bar" in n for n in j["notes"])'
 expect 0 "$kage" info single.gltf
 grep -q 'note: the backs of single-sided faces are drawn' stdout || fail "info does not tell what render tells"
-# What info says kage takes is what render takes.
+# The configuration that info names is the one that render takes.
 for scene in glass penumbra three-lights polyhedra; do
   expect 0 "$kage" info $scene --size 64x48 --json i.json
   expect 0 "$kage" render $scene --size 64x48 --frames 1 --json r.json --out o

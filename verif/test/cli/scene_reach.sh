@@ -31,8 +31,8 @@ has() {
   done
 }
 
-# Between them the scenes have every kind of token. Of the lines of inside none is whole within the one volume that its own
-# configuration counts in, so IF is what parity makes of them.
+# Between them the scenes have every kind of token. No line of inside is whole within the one volume that its own configuration
+# counts in, so it has IF only by parity.
 has courtyard SHADE OP SP EV RESOLVE EOL END
 has inside NC
 has inside NC IF --config default
@@ -41,9 +41,9 @@ has three-lights TABLE ES IF
 has glass TP
 has polyhedra FACE SEG TREE --config polyhedra
 
-# Depths in both halves of the range, ties, between units of which the later has the body that was drawn first (a draw index
-# is of one body, so no scene has equal keys in two units, which are what cell_tie needs: random frames have), and depths
-# beyond both ends, from units, from spans in groups and in columns.
+# Depths in both halves of the range, and ties between units of which the later has the body that was drawn first. Depths beyond
+# both ends come from units, from spans in groups and in columns. A draw index is of one body, so no scene has equal keys in two
+# units, which cell_tie needs: random frames have.
 reaches depths polyhedra 160x120 next_signed next_tie cell_signed cell_index unit_clamp unit_clamp_high
 reaches depths default 160x120 ramp_under ramp_over
 reaches depths default 320x240 ramp_under ramp_over

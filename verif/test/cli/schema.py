@@ -69,8 +69,9 @@ def good(name, document):
     return validators[name].is_valid(document)
 
 
-# Keys that are not always there, some in one place only, and objects whose keys are names: of parameters (a plan's reasons are by
-# parameter, too), phases, kinds of tokens, configurations, terms of an estimate, or of a model's manifest, which is shown as it is.
+# Keys that are not always there, some in one place only, and objects whose keys are names. Names are those of
+# parameters (a plan's reasons are by parameter, too), phases, kinds of tokens, configurations, terms of an estimate, or
+# of a model's manifest, which is shown as it is.
 SOMETIMES = {"own_sizes", "ahead", "takes", "in_place", "coverage", "scenes", "configs", "faults", "left", "bytes"}
 SOMETIMES_IN = {
     ("", "clocks"),
@@ -107,8 +108,8 @@ def objects(document, place=()):
 
 
 def spoilt(name, document, where):
-    """Without one of its keys, or with another one, at any depth, it is not of its schema: else the schema would hold anything.
-    What has been tried in the same place of the same schema is not tried again."""
+    """Without one of its keys, or with another one, at any depth, it is not of its schema: else the schema would hold
+    anything. A trial in the same place of the same schema is not repeated."""
     for place, entry in objects(document):
         if NAMES & set(place):
             continue

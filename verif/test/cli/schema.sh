@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What commands write by --json is of the schema that it names: docs/schema. Every command that has --json writes here, and
-# every schema is one that a command names.
+# The JSON that commands write by --json is of the schema that it names: docs/schema. Every command that has --json writes here,
+# and every schema is one that a command names.
 . "$(dirname "$0")/common.bash"
 unset GITHUB_ACTIONS
 mkdir json
@@ -165,7 +165,7 @@ said 0 explain p.kage --pixel 32,24
 said 0 explain polyhedra --size 64x48 --config polyhedra --pixel 32,24
 json "$last" 'any(t["kind"]=="TREE" for t in j["touches"])'
 
-# What there is.
+# Commands that say what there is.
 said 0 list
 said 0 list faults
 said 0 model default

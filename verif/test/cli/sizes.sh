@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Pictures of every size are rendered, and co-simulated where a narrow band or a narrow column of them keeps that short:
-# from 1x1 to 32766 wide or high, by a named configuration and by a plan.
+# Pictures of every size are rendered, from 1x1 to 32766 wide or high, by a named configuration and by a plan. They are
+# co-simulated where a narrow band or a narrow column of them keeps that short.
 . "$(dirname "$0")/common.bash"
 
 same() { # SIZE OPTION...: one frame of the scene, RTL and golden core alike

@@ -33,7 +33,7 @@ cmp -s c.kage one.kage || fail "one thread writes another stream"
 expect 0 "$kage" render courtyard --size 48x32 --frames 1 --config full --exr --out exr
 [ -s exr/courtyard_0000.exr ] || fail "no EXR"
 
-# What a configuration lacks is named; --degrade draws without it.
+# Features that a configuration lacks are named; --degrade draws without them.
 trouble "lacks" "$kage" render courtyard --size 48x32 --frames 1 --config tiny --out lacking
 [ ! -e lacking ] || fail "a refused render leaves a folder"
 expect 0 "$kage" render courtyard --size 48x32 --frames 1 --config tiny --degrade --out degraded --json d.json
@@ -117,7 +117,7 @@ trouble late.kage "$kage" cosim late.kage --out kept --json kept/r.json
 [ "$(cat kept/late_0000.png kept/notes.txt)" = "$(printf 'earlier\nother')" ] || fail "a failed render changes what was there"
 [ "$(find kept -type f | wc -l)" = 2 ] || fail "a failed render leaves files: $(find kept)"
 
-# What cannot be written is found before the work: nothing is read, so even a missing scene is not reached.
+# An output that cannot be written is found before the work: nothing is read, so even a missing scene is not reached.
 mkdir folder
 ln -s nowhere/x dangling
 for command in render cosim; do

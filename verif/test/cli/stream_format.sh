@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # docs/stream.md: the commands of its examples print the line it reads aloud, by spans and by polygons, and the front end makes
-# the spans at the tokens that the page names. docs/stream-files.md: its command makes the bytes it shows, and its Python reads
-# them, and refuses a changed file.
+# the spans at the tokens that the page names. Page docs/stream-files.md: its command makes the bytes it shows, and its Python
+# reads them, and refuses a changed file.
 . "$(dirname "$0")/common.bash"
 
 # block PAGE LANGUAGE HEADING: the page's first code block of that language from that heading on.

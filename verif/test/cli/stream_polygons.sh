@@ -45,7 +45,7 @@ expect 0 "$kage" stream polygons.kage --out copy.kage --json c.json
 cmp -s polygons.kage copy.kage || fail "a copy differs"
 json c.json 'j["level"]=="polygons" and j["polygons"] is None'
 
-# What cannot be.
+# Impossible requests.
 for level in spans polygons; do trouble "polygons.kage: --level: a stream has its own level" "$kage" stream polygons.kage --level $level --out x.kage; done
 [ ! -e x.kage ] || fail "a refused stream leaves a file"
 expect 2 "$kage" stream courtyard --level edges --out x.kage

@@ -13,7 +13,7 @@ from kage import stream as ks  # noqa: E402
 
 
 def told(file, frame):
-    """What the program says of a frame's tokens."""
+    """The program's text for a frame's tokens."""
     run = subprocess.run([kage, "info", file, "--tokens", str(frame)], capture_output=True, text=True, check=True)
     lines = iter(run.stdout.splitlines())
     while not next(lines).startswith(f"frame {frame}:"):
@@ -89,7 +89,7 @@ for wrong in (
 
 
 def refused(text, work):
-    """What `work` does has to end in a ValueError that says `text`."""
+    """`work` has to end in a ValueError that says `text`."""
     try:
         work()
     except ValueError as e:

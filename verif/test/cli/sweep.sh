@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage sweep from outside: table, JSON and CSV say the same; what is in the store is not measured again, and a sweep that is
-# killed goes on; shards are the whole; clocks by phases are those of the RTL; what is no axis is refused in one line.
+# kage sweep from outside: table, JSON and CSV say the same. Rows that are in the store are not measured again, and a sweep that
+# is killed goes on. Shards are the whole; clocks by phases are those of the RTL; an option that is no axis is refused in one
+# line.
 . "$(dirname "$0")/common.bash"
 quick=(--size 64x48 --frames 1 --config default --no-area --no-cosim)
 axes=(--axes "Z_BITS=8,24" --axes "SUB_BITS=4,5" --axes "LANES=1,16" --axes SHADE_FRAC=3)
@@ -63,7 +64,7 @@ cmp stdout a.json || fail "--json - is not the JSON alone"
 cmp a.csv b.csv || fail "beside --json - the CSV is another"
 [ ! -e - ] || fail "a file is called -"
 
-# What is kept is not measured again; without --resume a store is not touched.
+# Rows that are kept are not measured again; without --resume a store is not touched.
 # A sweep that was killed at once leaves a file of no bytes, which is no store yet.
 : >at_once.sqlite
 expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SHADE_FRAC=3 --store at_once.sqlite
@@ -76,7 +77,7 @@ cmp a.json again.json || fail "a resumed sweep says something else"
 expect 0 "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8,12 --resume
 tail -1 stdout | grep -qxF '# 1 measured now, 2 others were in sweep.sqlite' || fail "$(tail -1 stdout)"
 
-# A row is kept for its scene and its truth, not only for its words: a core without TRANSLUCENCY has the same words whatever
+# A row is kept for its scene and its truth, not only for its words. A core without TRANSLUCENCY has the same words whatever
 # --alpha is, and a core with a light table the same whether its base has one.
 printf 'v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nv -1 -1 -1\nv 1 -1 -1\nv 0 1.5 -1\nf 1 2 3 4\nf 5 6 7\n' >panes.obj
 for alpha in 0.9 0.2; do
@@ -240,7 +241,7 @@ json rtl.json 'j[0]["speed"]["rtl_cycles_from"] == j[1]["speed"]["rtl_cycles_fro
 json rtl.json 'abs(j[1]["speed"]["phases_cycles_per_pixel"] / j[1]["speed"]["rtl_cycles_per_pixel"] - 1) < 1e-3'
 json rtl.json 'j[0]["speed"]["cosim_frames_per_second"] > 0'
 
-# What another yosys has counted is counted anew; what an earlier one has counted is still in the store.
+# Cells that another yosys has counted are counted anew; those that an earlier one has counted are still in the store.
 cat >fake-yosys <<'SH'
 #!/bin/sh
 [ "$1" = -V ] && { echo "Yosys $FAKE"; exit 0; }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What kage sweep --out writes: the page has all rows as --json has them, plots are well-formed SVG and PNG of the stated size,
-# each row has its pictures, and its command line draws the same; it appears whole or not at all, and what cannot be written is
-# refused before the work. What the page does is in verif/test/report/sweep.py.
+# The output of kage sweep --out. The page has all rows as --json has them, and plots are well-formed SVG and PNG of the stated
+# size. Each row has its pictures, and its command line draws the same. The page appears whole or not at all, and an output that
+# cannot be written is refused before the work. The page's behaviour is tested by verif/test/report/sweep.py.
 . "$(dirname "$0")/common.bash"
 quick=(--size 64x48 --config default --no-area --no-cosim --store s.sqlite)
 axes=(--axes "Z_BITS=8,24" --axes "SUB_BITS=4,5" --axes "LANES=1,16" --axes CHANNELS=1 --axes SIZE=32x24)
@@ -90,7 +90,7 @@ while read -r i picture line; do
   expect 0 "$kage" diff "page/$picture" drawn"$i"/*_0001.png
 done <lines
 
-# What the page says of a row's sources of error is what the maps show that its other command line draws.
+# A row's sources of error in the page agree with the maps that its other command line draws.
 read -r i picture line <lines
 eval "expect 0 '$kage' $line --error-map --out maps --json maps.json"
 python3 - "$i" <<'PY' || fail "the maps of sources"
@@ -149,7 +149,7 @@ cp "$source/scenes/courtyard.gltf" "$name.gltf"
 expect 0 "$kage" sweep "$name.gltf" "${quick[@]}" --axes Z_BITS=8 --frames 1 --store odd.sqlite --out odd --json odd.json
 checked odd odd.json
 
-# What cannot be written is refused before the work, and nothing is left.
+# An output that cannot be written is refused before the work, and nothing is left.
 echo text >file
 trouble "file" "$kage" sweep courtyard "${quick[@]}" --store no.sqlite --out file
 trouble "/proc/none" "$kage" sweep courtyard "${quick[@]}" --store no.sqlite --out /proc/none

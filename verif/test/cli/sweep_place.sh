@@ -32,7 +32,7 @@ for row, cells, line in zip(rows, sheet, table):
     assert line.split()[-2:] == [f"{mhz:.1f}", f"{fps:.1f}"], line
 PY
 
-# What is kept is not placed again. Without --place a row is another.
+# A row that is kept is not placed again. Without --place a row is another.
 expect 0 "$kage" sweep courtyard "${quick[@]}" --config tiny --axes SUB_BITS=4,5,6 --place=hx8k --resume --json b.json
 [ ! -s stderr ] || fail "$(cat stderr)"
 tail -1 stdout | grep -qF '# 1 measured now' || fail "$(tail -1 stdout)"

@@ -129,7 +129,7 @@ expect 0 "$kage" render courtyard --config systolic64 --size 64x48 --frames 1 --
 expect 2 "$kage" render glass --config systolic64 --size 64x48 --out none
 ! grep -q 'wide fits' stderr || fail "a size is offered though none would do: $(cat stderr)"
 
-# What is meant for a person lands in no file of results, and nobody to hear it is no reason to fall over.
+# A message for a person lands in no file of results, and nobody to hear it is no reason to fall over.
 expect 0 "$kage" stream courtyard --size 64x48 --frames 3 --out heard.kage
 for closed in '2>&-' '0<&- 1>&- 2>&-' '2>/dev/full'; do
   rc=0
@@ -140,7 +140,7 @@ for closed in '2>&-' '0<&- 1>&- 2>&-' '2>/dev/full'; do
   (eval "\"\$kage\" info nothing.kage >/dev/null $closed") || rc=$?
   [ $rc = 2 ] || fail "info $closed: exit $rc of a file that is not there"
 done
-# What is told and does not arrive is trouble; a reader who has had enough knows.
+# Output that does not arrive is trouble; a reader who has had enough knows.
 for command in "info heard.kage" "info heard.kage --json -" "cosim heard.kage --no-report --out full" "diff heard.kage heard.kage" \
   --version --help "help cosim" "help --man" list "render heard.kage --out full" "info heard.kage --tokens 0"; do
   rc=0

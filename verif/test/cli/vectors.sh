@@ -6,7 +6,7 @@
 . "$source/verif/test/cli/packs.bash"
 make p courtyard --size 16x12 --frames 2 --config default
 json pack.json 'j["frames"]==20 and j["malformed"]==18 and j["pixels"]>=2*16*12 and 0<j["clocks"]<20*2000'
-# Of a refused header no clocks are told, and of no other frame those that the driver waits for.
+# A refused header has no clocks; those of other frames are without the clocks that the driver waits for.
 json p/manifest.json '(f:=[x for x in j["frames"] if x["height"]==0]) and all(x["clocks"] is None for x in f)'
 json p/manifest.json 'all(0<x["clocks"]<2000 for x in j["frames"] if x["height"]>0)'
 no_leftovers
@@ -109,7 +109,7 @@ trouble "capture: a capture ends with .hex, .bin, .raw, or as a picture does: a 
 : >empty.raw
 trouble "empty.raw: is empty: no capture" "$kage" vectors --compare p empty.raw
 trouble "p/kage_pack.vh: a capture ends with .hex, .bin, .raw, or as a picture does" "$kage" vectors --compare p p/kage_pack.vh
-# What a board's people change of a pack is not what a capture is judged by.
+# A capture is not judged by files of a pack that a board's people change.
 cp -r p mine && echo >>mine/README.md && echo >>mine/kage_pack_tb.v
 expect 0 "$kage" vectors --compare mine p/pixels.hex
 expect 0 "$kage" vectors --compare p p/pixels.hex

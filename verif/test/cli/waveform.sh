@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The waveform shows at its marker what the verdict says of that clock: of a scene, of a frame among others, and of one that
-# random:mixed sends right behind another, which is in the waveform too.
+# The waveform shows at its marker what the verdict says of that clock. It does so for a scene, for a frame among others, and for
+# one that random:mixed sends right behind another, which is in the waveform too.
 . "$(dirname "$0")/common.bash"
 
 echo '{MAX_WIDTH: 64, LANES: 4, TRANSLUCENCY: 1}' >small.yaml

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""waveform_clock.py REPORT.json FILE.gtkw [LANES]: whether the waveform shows, at the clock that the save file marks, what the
-report says of it: pixel_banked writes the pixel, and in it the wrong value; a clock before and a clock behind it does not. Prints
-how many frames have ended at the core's input before, as far as the waveform goes back.
+"""waveform_clock.py REPORT.json FILE.gtkw [LANES]: whether the waveform agrees with the report at the clock that the
+save file marks. There pixel_banked writes the pixel, and in it the wrong value; a clock before and a clock behind it
+does not. Prints how many frames have ended at the core's input before, as far as the waveform goes back.
 """
 
 import json
@@ -34,7 +34,7 @@ z_bits, channels = report["config"]["Z_BITS"], report["config"]["CHANNELS"]
 
 
 def writes(time):
-    """What the edge that follows writes to the pixel; nothing if it writes none."""
+    """The value that the edge that follows writes to the pixel; nothing if it writes none."""
     lane = wrong["x"] % lanes
     if not fst.at(valid, time) >> stages - 1 or not fst.at(taken, time) >> lane & 1:
         return None

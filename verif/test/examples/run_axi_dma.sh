@@ -16,7 +16,7 @@ example sound WORK="$temp/build" || { fail "the example does not pass"; tail -n 
 cat stdout
 grep -q '^kage_dma: same: ' stdout || fail "does not say same"
 ! grep -hE '(kage_driver\.[ch]|sim\.cpp):.*warning' stdout stderr || fail "does not compile without a warning"
-# What the README shows was printed, but for clocks and the line of a standstill, which change with the RTL's latency.
+# The README shows lines that were printed, but for clocks and the line of a standstill, which change with the RTL's latency.
 clocks='s/, [0-9]* clocks$//; s/ at line [0-9]*$//'
 shown=$(awk '/^```/ { inside = !inside; shown = inside && $0 == "```"; next } shown' "$source/examples/axi_dma/README.md" | sed "$clocks")
 [ -n "$shown" ] || fail "the README shows nothing"

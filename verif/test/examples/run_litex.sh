@@ -11,7 +11,7 @@ litex=$(pypi_folder litex)
 printf '#include <event2/event.h>\n#include <json-c/json.h>\n' | cc -E - >/dev/null 2>&1 ||
   { echo "run_litex.sh: libevent or json-c is not installed: tools/deps litex does that"; exit 77; }
 export PYTHONPATH=$litex:$source/python PYTHONDONTWRITEBYTECODE=1 KAGE=$kage
-# What is the same in each simulation, Verilator's own library above all, is compiled once.
+# Code that is the same in each simulation, Verilator's own library above all, is compiled once.
 if command -v ccache >/dev/null; then export OBJCACHE=ccache CCACHE_DIR=$temp/ccache; fi
 
 expect 0 /usr/bin/python3 "$source/examples/litex/sim.py" --work sound

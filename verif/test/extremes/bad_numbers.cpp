@@ -30,7 +30,7 @@ TEST_CASE("family 10: a position, camera or light that is not finite is an error
     CHECK_THAT(said([](SceneFrame& f, double v) { f.camera.forward.z = v; }), ContainsSubstring("camera"));
     CHECK_THAT(said([](SceneFrame& f, double v) { f.camera.half_height = v; }), ContainsSubstring("camera"));
     CHECK_THAT(said([](SceneFrame& f, double v) { f.camera.near = v; }), ContainsSubstring("camera"));
-    // Of a light what counts for it, and only that.
+    // Each kind of light: the numbers that count for it, and only those.
     const auto of_light = [&](bool directional, auto spoil) {
       return said([&](SceneFrame& f, double v) {
         f.lights.push_back({});

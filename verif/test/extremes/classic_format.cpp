@@ -24,8 +24,8 @@ Config classic_format() {
   return c;
 }
 
-/// The depth that segments say, pixel by pixel, against the exact plane: how far it is off, and how near to the bound
-/// of (k + 1) 2^-(f+1) LSB, k being counted from the face's first pixel on the line.
+/// The depth of segments, pixel by pixel, against the exact plane: how far it is off, and how near to the bound of
+/// (k + 1) 2^-(f+1) LSB. Here k counts from the face's first pixel on the line.
 struct DepthError {
   std::uint64_t pixels = 0;
   double largest = 0;  ///< LSB

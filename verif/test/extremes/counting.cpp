@@ -76,7 +76,7 @@ TEST_CASE("family 23: a caster crossed 2, 3, 7, 2^b - 1 and 2^b times is right, 
       const SceneFrame f = zigzag_scene(n);
       const Config config = counting(bits);
       judge_all(f, config, kWidth, kHeight);
-      // The zigzag and the floor below it. What fits in one volume is one.
+      // The zigzag and the floor below it. They are one volume if they fit in one.
       if (bits > 1) CHECK((volumes(f, config) == 1) == (n + 1 <= (1 << bits) - 1));
       const RayCount count = compare_with_rays(f, kWidth, kHeight, 2, config);
       INFO(count.text());

@@ -23,7 +23,7 @@ Outcome holds(const Case& c) {
   return o;
 }
 
-/// So many cases of a family from the test's seed. What they came to together.
+/// Holds `count` cases of a family from the test's seed. Gives the sum of their outcomes.
 template <IsCase Case>
 Outcome cases_hold(int count) {
   Random random(test_seed());

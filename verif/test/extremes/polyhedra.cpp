@@ -54,7 +54,7 @@ TEST_CASE("family 33: random polyhedra give the same bits by segments and by spa
     CAPTURE(i);
     const Counts counts = either_way(random_scene(random, random.in(1, 12), true));
     for (std::size_t n = 0; n < counts.size(); ++n) by_segments[n] += counts[n].by_segments;
-    // Of 64 units there is one for each polyhedron that covers a pixel; fewer serve some.
+    // With 64 units there is one for each polyhedron that covers a pixel; fewer serve some.
     CHECK(counts.back().by_spans == 0);
     CHECK(counts.back().units_used <= counts.back().by_segments);
     segments += counts.back().of_faces;

@@ -13,7 +13,7 @@ fail() {
   echo "program.sh: $*" >&2
   exit 1
 }
-# gives CODE COMMAND...: it ends with this code. What it says is in $work/out.
+# gives CODE COMMAND...: it ends with this code. Its output is in $work/out.
 gives() {
   local code=$1 rc=0
   shift

@@ -26,9 +26,10 @@ Look look_of(int sub_bits) {
   return look;
 }
 
-/// A scene whose triangles the snap must bring to the given corners, seen in parallel, a unit a pixel: each corner is
-/// off by up to half a step, 64 of which make a step so that no double rounds; half a step before a corner goes to it,
-/// half a step past it to the next one. Depths are at random, so that no two triangles lie in a plane.
+/// A scene whose triangles the snap must bring to the given corners, seen in parallel, a unit a pixel. Each corner is
+/// off by up to half a step; its offset counts in 64ths of a step, so that no double rounds. A corner half a step
+/// before goes to it, one half a step past it to the next one. Depths are at random, so that no two triangles lie in a
+/// plane.
 class Unsnapped {
  public:
   Unsnapped(Random& random, int sub_bits) : random_(&random), step_(1 << (8 - sub_bits)), look_(look_of(sub_bits)) {

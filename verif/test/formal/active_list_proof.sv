@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of active_list, for anything that front_merge and polygon_walk may do with it, and a reset or a
-// clearing at any time (verif/test/formal/run.sh):
+// Proof of active_list, for anything that front_merge and polygon_walk may do with it, and a reset or a clearing at any
+// time (verif/test/formal/run.sh):
 //   in_order   the nth polygon that is given is the nth that was written: none is lost, doubled or changed;
 //   none_more  a line is given no more polygons than the line above has kept;
 //   comes      one that is there is given within Wait clocks, so that none is left behind;
@@ -8,9 +8,10 @@
 //   placed, ends   the comparisons of its place and of its end are of the polygon that is given, and of place_i and
 //                  line_i.
 //
-// How: by induction. The proof keeps a queue of what has been written and not taken, and counts what each line has
-// kept. run.sh connects inside_* to the banks, their pointers and the stages ahead of the port; the lemmas say that the
-// queue's words lie in the stages first, then in the bank that is read, then in the other.
+// How: by induction. The proof keeps a queue of the polygons that have been written and not taken, and counts those
+// that each line has kept. Script run.sh connects inside_* to the banks, their pointers and the stages ahead of the
+// port. The lemmas say that the queue's words lie in the stages first, then in the bank that is read, then in the
+// other.
 //
 // Why small widths say it for all: a polygon's place and end alone are looked at; its other bits are copied alike.
 // ACTIVE is 2, so that a bank is filled, taken again and full.

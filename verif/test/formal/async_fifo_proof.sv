@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of async_fifo, for any two clocks, any stalls of both sides and a reset of both sides at any time
+// Proof of async_fifo, for any two clocks, any stalls of both sides and a reset of both sides at any time
 // (verif/test/formal/run.sh):
 //   order     words come out once and in order: word number N that leaves is word number N that came. mark_i, free,
 //             chooses the word that is watched.
@@ -9,10 +9,10 @@
 //             has left: the word leaves as soon as those before it, and three to four clocks after it came.
 //   capacity  with fewer than DEPTH words in it the FIFO refuses at most Refused edges of the input's clock in a row.
 //
-// How: by induction. A step of the solver is a moment in which each clock rises, falls or rests as it likes, so there
-// is no ratio of clocks and no phase that is left out (clk2fflogic). undecided_synchronizer lets each bit that crosses
-// while it changes be taken as the old or the new one. run.sh connects inside_* to the pointers and the memory; the
-// lemmas say that what each side has seen of the other's pointer lies between the true one and its own.
+// How: by induction. A step of the solver is a moment in which each clock rises, falls or rests as it likes, so no
+// ratio of clocks and no phase is left out (clk2fflogic). Module undecided_synchronizer lets each bit that crosses
+// while it changes be taken as the old or the new one. Script run.sh connects inside_* to the pointers and the memory.
+// The lemmas say that each side's copy of the other's pointer lies between the true one and its own.
 //
 // Why small widths say it for all: no bit of a word is looked at, all are copied alike. DEPTH is 4, 8 and 16: the least
 // there is, and pointers whose Gray code turns more bits.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of compare_tree, for any stalls of any input and of the output (verif/test/formal/run.sh):
+// Proof of compare_tree, for any stalls of any input and of the output (verif/test/formal/run.sh):
 //   1. an output is, data and last, the least of the units' oldest pixels that have not been output, the lowest unit's
 //      on equal keys;
 //   2. every unit's pixels come to an output once, in order: an output uses up one pixel of each unit, and never more
@@ -9,13 +9,13 @@
 //
 // How: a queue per unit, beside the tree, holds the pixels that went in and have not come out. Its oldest pixels must
 // be what the output says. For induction the same is demanded of each node inside: a node that holds a pixel holds the
-// least of its units' pixels at the place that the nodes above it leave. run.sh connects the inside_* wires to the
-// tree's own. Assertions without a label are lemmas of the induction.
+// least of its units' pixels at the place that the nodes above it leave. Script run.sh connects the inside_* wires to
+// the tree's own. Assertions without a label are lemmas of the induction.
 //
 // Why small widths say it for all: the tree looks at data in one place only, the `<` of a cell, and that at keys only;
-// all else is copied. What it does depends on how the keys of the UNITS pixels that meet are ordered, ties included,
-// and UNITS <= 5 different keys make all such orders; here are 2^KEY_BITS = 8. That data are copied whole is seen by a
-// payload that is free in each pixel.
+// all else is copied. Its work depends on how the keys of the UNITS pixels that meet are ordered, ties included, and
+// UNITS <= 5 different keys make all such orders; here are 2^KEY_BITS = 8. A payload that is free in each pixel shows
+// that data are copied whole.
 `default_nettype none
 
 module compare_tree_proof #(

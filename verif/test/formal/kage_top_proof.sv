@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of kage_top at its ports, by induction, for anything that comes in and a reset at any time
+// Proof of kage_top at its ports, by induction, for anything that comes in and a reset at any time
 // (verif/test/formal/run.sh):
 //   m_axis.*  a pixel that waits stays as it is, with TUSER and TLAST, and reset silences it (stream_rules);
 //   s_axil.*  the rules of AXI4-Lite (lite_rules);
 //   in_reset  s_axis is not ready in reset: no beat is taken and lost.
-// What is behind m_axis, s_axis and s_axil is proved of the modules that drive them: line_out, token_reader, registers.
-// This proof says that kage_top puts nothing in between. Its covers show traffic on s_axis and s_axil; a pixel is
-// further away than the bound.
+// The modules that drive m_axis, s_axis and s_axil have proofs of their own: line_out, token_reader, registers. This
+// proof says that kage_top puts nothing in between. Its covers show traffic on s_axis and s_axil; a pixel is further
+// away than the bound.
 `default_nettype none
 
 module kage_top_proof #(

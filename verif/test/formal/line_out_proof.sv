@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of line_out at its ports, for any pixels and any stalls of both ways out (verif/test/formal/run.sh).
+// Proof of line_out at its ports, for any pixels and any stalls of both ways out (verif/test/formal/run.sh).
 // By induction (MODEL 0):
 //   video.*, load_out.*  what waits stays as it is; reset silences it (stream_rules): m_axis of kage_top is this
 //                output. The surroundings stop behind LINES lines, but the step begins in any state of the module
@@ -23,7 +23,7 @@
 // without stops behind exit_take_i, as pixel_core does, and the script says what must come out. Lines of a frame have
 // one width, background and shade.
 //
-// Why small widths say it for all: pixels and channels are computed alike, each for itself; here is one channel.
+// Why small widths say it for all: pixels and channels are computed alike, each for itself; here is one channel. Script
 // proofs.bash follows one bit of the colour through lines of up to three pixels in groups of one and two, and all eight
 // bits of a line of one pixel.
 `default_nettype none

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of line_phase, for any number of tokens of a line that are in order (verif/test/formal/run.sh):
+// Proof of line_phase, for any number of tokens of a line that are in order (verif/test/formal/run.sh):
 //   order          a token is in order where docs/stream.md ("Order in a line") lets it stand, and nowhere else, for
 //                  each kind;
 //   resolved_last  resolved_o says that a RESOLVE was the line's last token;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an AXI4-Lite port owes to its master; a proof puts it on the wires of the port. The master may do anything, even
-// what AXI4 forbids it: nothing is assumed.
+// The duties of an AXI4-Lite port to its master; a proof puts them on the wires of the port. The master may do
+// anything, even what AXI4 forbids it: nothing is assumed.
 //
 //   b.*, r.*     responses stay, with what goes with them, until they are taken; reset silences them (stream_rules).
 //   in_reset     nothing is ready in reset, so no request is taken and lost.
@@ -78,7 +78,7 @@ module lite_rules (
       if (reads_q != '0) r_comes : assert (rvalid_i);
       takes : assert ((awready_i || addresses_q != '0) && (wready_i || data_q != '0) && (arready_i || reads_q != '0));
       capacity : assert (addresses_q <= 3'd2 && data_q <= 3'd2 && reads_q <= 3'd1);
-      // What of a write has been taken and not answered is being held, or its answer waits.
+      // The parts of a write that were taken and not answered are being held, or its answer waits.
       lemma_write : assert (addresses_q == 3'(!awready_i) + 3'(bvalid_i) && data_q == 3'(!wready_i) + 3'(bvalid_i));
       lemma_read : assert (reads_q == 3'(!arready_i));
 

@@ -13,6 +13,7 @@
 #   induction       clocks of the step; left out where the proof goes to a bound only
 #   defect_steps    clocks within which a defect must be found; steps if left out
 #   cover           clocks in which every cover statement must be reached; left out where another proof of the module reaches them
+#
 # defect NAME PROOF FILE SED-EXPRESSION: changes FILE of rtl/, a module or a header (include/...); PROOF must refute it. Every property of a module, lemmas
 #   aside, must be refuted by at least one.
 

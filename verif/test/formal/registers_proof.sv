@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of registers at its ports, for any masters and any events, and a reset at any time
-// (verif/test/formal/run.sh).
+// Proof of registers at its ports, for any masters and any events, and a reset at any time (verif/test/formal/run.sh).
 //   By induction (MODEL 0): the rules of AXI4-Lite (lite_rules).
 //   To a bound (MODEL 1), against a model of docs/stream.md, and further (MODEL 2) with a plain master, which writes
 //   whole words, reads nothing, and resets at the start only:
@@ -15,7 +14,7 @@
 //     write_answer
 // The limit is free, all 32 bits of it: those beyond the bound must not bite within it.
 //
-// What the core says counts a clock later, and a standstill begins anew in the clock after WATCHDOG was written.
+// A signal of the core counts a clock later, and a standstill begins anew in the clock after WATCHDOG was written.
 // How: the model keeps what has been written, by the handshakes alone, and counts how many clocks the present
 // standstill has lasted. It knows nothing of the module's own counter, which stops at the limit.
 `default_nettype none

@@ -20,8 +20,8 @@ export PATH
 for tool in yosys yosys-smtbmc yices-smt2; do
   command -v $tool >/dev/null || { echo "run.sh: $tool is missing (tools/deps test)" >&2; exit 2; }
 done
-# Newer versions of yosys keep assertions as $check cells, which have to be lowered to what the solver's language has.
-# Of several clocks each is free, and every step of the solver may be an edge of any.
+# Newer versions of yosys keep assertions as $check cells, which have to be lowered to what the solver's language has. With
+# several clocks each is free, and every step of the solver may be an edge of any.
 lower='' one_clock=
 if yosys -q -p "tee -q -o /dev/stdout help chformal" 2>/dev/null | grep -q -e '-lower'; then lower="chformal -lower;" one_clock="async2sync;"; fi
 work=$(mktemp -d)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of sdram_controller, for any words and blocks at any time and a reset at any time
-// (verif/test/formal/run.sh):
+// Proof of sdram_controller, for any words and blocks at any time and a reset at any time (verif/test/formal/run.sh):
 //   1. the chip's rules (sdram_rules), all of them, for ever: start, distances, banks and rows, bus, refreshes on time;
 //   2. every block brings as many words as it has, and no word comes unasked; what was accepted, or a refresh that is
 //      due, is nearer to its end in every clock, and of two ports that wait none goes twice in a row;
@@ -8,15 +7,15 @@
 //
 // How: by induction. run.sh connects inside_* to the registers of the controller and of the rules. The rules see a
 // command a clock after it was decided, so the lemmas compare what the rules count now with what the controller counted
-// a clock ago: that is never less. That a refresh is on time is a sum: the clocks it is late by now, and those until it
-// comes in the worst case (to_go), which each clock makes less by one. 3 is carried from register to register:
+// a clock ago: that is never less. A refresh is on time by a sum: the clocks it is late by now, and those until it
+// comes in the worst case (to_go), which each clock makes less by one. Property 3 is carried from register to register:
 // accepted, decided, on the pins, in the chip, on its way back.
 // The chip is one word, at an address that is any (marked); what the other words read as is free.
 //
 // Why small values say it for all: the controller counts down to 0 from the numbers and compares with nothing else, and
-// the lemmas are about what is left. Here each number is 2 or more, large enough to be what holds a command back, and
-// a block (2 words), a row (4 words), the banks (2) and INIT_REFRESHES (2) are the least that have a next one. Bits
-// of rows and of words are all treated alike; rows have 11 bits as A10 has a meaning.
+// the lemmas are about what is left. Here each number is 2 or more, large enough to hold a command back. A block (2
+// words), a row (4 words), the banks (2) and INIT_REFRESHES (2) are the least that have a next one. Bits of rows and of
+// words are all treated alike; rows have 11 bits as A10 has a meaning.
 `default_nettype none
 
 module sdram_controller_proof #(
@@ -158,7 +157,7 @@ module sdram_controller_proof #(
     if (QUIET == 2) assume (wr_addr_i == '0);
     if (QUIET != 0 && begun_q) assume (rst_ni);
   end
-  // What is offered stays.
+  // An offer stays.
   logic wr_waits_q = 1'b0, req_waits_q = 1'b0;
   logic [AddrBits-1:0] wr_addr_q;
   logic [AddrBits-2:0] req_block_q;

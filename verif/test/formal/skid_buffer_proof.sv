@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of skid_buffer, for any stalls of both sides and a reset at any time (verif/test/formal/run.sh):
+// Proof of skid_buffer, for any stalls of both sides and a reset at any time (verif/test/formal/run.sh):
 //   1. words come out once, in order, one clock after they have become the oldest, within as many ready clocks as words
 //   fit;
 //      two words fit, and the input is ready whenever one more does (queue_rules);

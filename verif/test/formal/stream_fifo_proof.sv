@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of stream_fifo, for any stalls of both sides and a reset at any time (verif/test/formal/run.sh):
+// Proof of stream_fifo, for any stalls of both sides and a reset at any time (verif/test/formal/run.sh):
 //   1. words come out once, in order, one clock after they have become the oldest, within as many ready clocks as words
 //   fit;
 //      DEPTH words fit, and the input is ready whenever one more does (queue_rules);
 //   2. an output that waits stays as it is, and reset silences it (stream_rules).
 //
-// How: by induction. The queue of queue_rules says what is inside. run.sh connects inside_* to the memory, the count,
-// the place of the oldest word and that of the next; the lemmas say that the words of the queue lie between them.
+// How: by induction. The queue of queue_rules says what is inside. Script run.sh connects inside_* to the memory, the
+// count, the place of the oldest word and that of the next. The lemmas say that the words of the queue lie between
+// them.
 //
 // Why small widths say it for all: no bit of a word is looked at, all are copied alike. BITS bits are free in each
 // word. DEPTH is 2, the least there is and the one that kage_top has, 4, and 8: pointers of one bit and of more,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a valid/ready output, and so an AXI4-Stream one, owes to whom it feeds; a proof puts it on the wires of the
-// output.
+// The duties of a valid/ready output, and so of an AXI4-Stream one, to whom it feeds; a proof puts them on the
+// wires of the output.
 //
 //   stays   valid stays until ready.
 //   same    what goes with valid stays as it is until ready.

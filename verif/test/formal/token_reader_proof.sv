@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of token_reader at its ports, for any words, any stalls of both sides, drops wherever they are
-// allowed, and a reset at any time (verif/test/formal/run.sh).
+// Proof of token_reader at its ports, for any words, any stalls of both sides, drops wherever they are allowed, and a
+// reset at any time (verif/test/formal/run.sh).
 // By induction (MODEL 0):
 //   ready_stays  a ready input stays ready until a beat comes;  in_reset  and is not ready in reset: no beat is taken
 //                and lost;
@@ -206,8 +206,8 @@ module token_reader_proof #(
     if (started_q && rst_ni && ready_waits_q) ready_stays : assert (s_ready);
   end
 
-  // For induction, of the registers within (proofs.bash connects inside_*): the places count beats and words modulo
-  // four times what is held, so that what lies past the newest beat is told from what lies before it.
+  // For induction, lemmas of the registers within (proofs.bash connects inside_*). The places count beats and words
+  // modulo four times the capacity, so that a place past the newest beat differs from one before it.
   if (MODEL == 0) begin : gen_lemmas
     localparam int OffBits = $clog2(BEAT_WORDS);
     localparam int Depth = 1 << InsideAtBits - 2 - OffBits;  // beats

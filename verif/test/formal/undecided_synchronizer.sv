@@ -3,8 +3,8 @@
 // the old or the new one, as it likes. A proof reads this file in place of rtl/board/synchronizer.sv.
 //
 // A step of the solver is the time within which flip-flops are undecided. A bit that changed in the step before the
-// clock's edge may be caught either way; one that changes in the edge's own step is caught as the old one, and there is
-// a step later in which the edge would have caught it either way.
+// clock's edge may be caught either way. One that changes in the edge's own step is caught as the old one: there is a
+// step later in which the edge would have caught it either way.
 `default_nettype none
 
 module synchronizer #(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is proved of volume_ends, for any items, stalls, and a reset or a flush at any time (verif/test/formal/run.sh):
+// Proof of volume_ends, for any items, stalls, and a reset or a flush at any time (verif/test/formal/run.sh):
 //   volume_range   an EV ends a volume that is open; its range is from the least left end to the greatest right end of
 //                  the volume's spans, of NC's over the whole line, which leave as IF, too;
 //   sample_range   an ES likewise ends a sample, of the range of its volumes;
@@ -8,10 +8,10 @@
 //   one_volume     a span joins the volume that is open only if it is of it, and the sample likewise;
 //   steady         a token that waits stays as it is.
 //
-// How: by induction. The proof reads the tokens that leave, and keeps of them the spans' least and greatest ends; of
-// items it keeps the family alone. Items are any that front_merge gives of a frame at the polygon level: spans have the
-// layer of their kind. run.sh connects inside_* to what the module keeps; the lemmas say that it is what the tokens
-// said.
+// How: by induction. The proof reads the tokens that leave, and keeps their spans' least and greatest ends; of items it
+// keeps the family alone. Items are any that front_merge gives of a frame at the polygon level: spans have the layer of
+// their kind. Script run.sh connects inside_* to the module's registers; the lemmas say that these agree with the
+// tokens.
 //
 // Why small widths say it for all: ends of spans are compared and copied alike whatever their bits.
 `default_nettype none

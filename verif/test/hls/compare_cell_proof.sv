@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The kernel compare_cell, as hls/tool makes it without stages, chooses what the RTL's cell takes into its register:
-// whenever the cell takes a pixel of both sides, its data a clock later are the kernel's of those pixels.
+// The kernel compare_cell, made by hls/tool without stages, chooses the data that the RTL's cell takes into its
+// register. Whenever the cell takes a pixel of both sides, its data a clock later are the kernel's of those pixels.
 `default_nettype none
 
 module compare_cell_proof #(

@@ -38,7 +38,7 @@ using kage::Int128;
 using kage::ScreenVertex;
 
 #if !defined(KAGE_HLS_AC) && !defined(KAGE_HLS_AP)
-// What breaks the rule of hls/types.hpp does not compile: operands of two types, a result that goes on without a
+// Code that breaks the rule of hls/types.hpp does not compile: operands of two types, a result that goes on without a
 // variable.
 template <class A, class B>
 concept Adds = requires(A a, B b) {
@@ -214,7 +214,7 @@ void span_setup_is_ref() {
       ++parts;
       ramp = r;
     });
-    // Those that a polygon of the stream has: one part, which is neither clamped nor bent.
+    // The spans that a polygon of the stream has: one part, which is neither clamped nor bent.
     const Int128 last = static_cast<Int128>(plane.c) + static_cast<Int128>(plane.a) * (count - 1);
     const Int128 limit = (static_cast<Int128>(1) << (kPlane - 1)) - (1 << 24);
     if (parts > 1 || plane.c >= limit || last >= limit || last < -limit) continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tries mutants of a generated pipeline by the vectors of rtl/hls_kernels, and of the blender by all inputs, as
-// rtl/hls_blend. hls/tool/mutants_run.py compiles it, once for each module: MODEL is Verilator's class, whose input
-// mutant_i chooses the mutant; PORTS the struct of hls_pipelines.hpp and STAGES the pipeline's stages, or BLEND_FRAC
-// the blender's SHADE_FRAC.
+// rtl/hls_blend. Program hls/tool/mutants_run.py compiles it, once for each module. MODEL is Verilator's class,
+// whose input mutant_i chooses the mutant. PORTS is the struct of hls_pipelines.hpp and STAGES the pipeline's
+// stages; or BLEND_FRAC is the blender's SHADE_FRAC.
 //
 // usage: mutants VECTORS SEED NUMBER...     prints a line for each: NUMBER, and what is wrong with it, or "lives"
 // Exit code 1: the module without a mutant, number 0, has something wrong; 2: usage.

@@ -41,7 +41,7 @@ def fail(text):
 
 
 def refusal(source):
-    """What the tool says of a kernel that it cannot make hardware of; empty if it takes it."""
+    """The tool's message about a kernel that it cannot make hardware of; empty if it takes it."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "kernel.cpp"
         path.write_text(HEAD + source + "\n")
@@ -98,7 +98,7 @@ def random_graph(dice):
 
 
 def check_known(g, inputs):
-    """What a node is known to be holds for these inputs."""
+    """The facts known about each node hold for these inputs."""
     for n in graph.live(g.outputs.values()):
         whole = graph.Graph.__new__(graph.Graph)
         whole.outputs = {"n": n}

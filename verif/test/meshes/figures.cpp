@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What kage's readers make of files, as figures that another reader's can be held against (second_reader.py): for each
-// file named, a line of JSON with the triangles, the box round their corners, twice their area, and their mean colour
-// by area; or with the refusal.
+// The results of kage's readers as figures that another reader's can be held against (second_reader.py). For each file
+// named there is a line of JSON with the triangles, the box round their corners, twice their area, and their mean
+// colour by area; or with the refusal.
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>

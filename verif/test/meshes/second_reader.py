@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Holds kage's readers of OBJ, PLY, STL and OFF against trimesh, another program's: of some three hundred files, those of
-Debian's packages and generated ones, the triangles, the box round their corners, their area, and their mean colour.
+"""Holds kage's readers of OBJ, PLY, STL and OFF against trimesh, another program's. Some three hundred files, those of
+Debian's packages and generated ones, are held: the triangles, the box round their corners, their area, and their mean
+colour.
 
 usage: second_reader.py FIGURES TRIMESH
 
@@ -58,7 +59,7 @@ DISAGREE = {
 
 
 def own_figures(program: str, files: list[str]) -> list[dict]:
-    """What kage makes of each file."""
+    """The figures of kage for each file."""
     done = subprocess.run([program, *files], stdout=subprocess.PIPE, check=True)
     return [json.loads(line) for line in done.stdout.splitlines()]
 
@@ -79,7 +80,7 @@ def colours_of(mesh, faces: int):
 
 
 def other_figures(file: str) -> dict:
-    """What trimesh makes of a file."""
+    """The figures of trimesh for a file."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:

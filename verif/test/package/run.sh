@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs the build into a temporary prefix, then configures, builds and runs a project that knows nothing but that prefix.
-# What docs/building.md and docs/order.md show of that project must be in it.
+# Installs the build into a temporary prefix, then configures, builds and runs a project that knows nothing but that prefix. The
+# lines of that project that docs/building.md and docs/order.md show must be in it.
 # usage: run.sh BUILD SOURCE CXX
 set -euo pipefail
 [ $# = 3 ] || { echo "usage: run.sh BUILD SOURCE CXX" >&2; exit 2; }
@@ -30,7 +30,7 @@ done < <(sed -nE 's/^(class|struct) ([A-Za-z]+);.*/\1 \2/p' "$headers"/*.hpp)
 for file in rtl/defs/kage.yaml rtl/defs/configs.yaml verif/cosim/model/cells/ice40.v verif/cosim/model/driver/netlist.py verif/board/sim/build_board.py constraints/boards/boards.yaml; do
   [ -e "$temp/prefix/share/kage/$file" ] || { echo "not installed: share/kage/$file" >&2; exit 1; }
 done
-# What is installed to be read is whole: each link of each page leads to a file that is there.
+# The installed pages are whole: each link of each page leads to a file that is there.
 doc=$temp/prefix/share/doc/kage
 [ -d "$doc" ] || doc=$(dirname "$(find "$temp/prefix" -name README.md -path '*doc*' | head -n 1)")
 links=0

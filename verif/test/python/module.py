@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""module.py KAGE SOURCE LIBRARY: the package python/kage against the program: the golden core's lines are the pack's pixels, steps
-tell every token and the state behind it, and what is wrong is refused in a line. The commands and the example of its README run."""
+"""module.py KAGE SOURCE LIBRARY: the package python/kage against the program. The golden core's lines are the pack's
+pixels, steps give every token and the state behind it, and wrong input is refused in a line. The commands and the
+example of its README run."""
 
 import os
 import pathlib
@@ -105,7 +106,7 @@ with tempfile.TemporaryDirectory() as name:
         next(tiny.steps(f.words), None)
         same(f"{f.what} behind a step", tiny.frame(f.words), whole)
 
-    # What is wrong.
+    # Wrong input.
     refused(kage.GoldenError, lambda: kage.Golden("nowhere"), "nowhere", "no configuration")
     refused(kage.GoldenError, lambda: kage.Golden({"Z_BITS": 99}), "Z_BITS")
     refused(kage.PackError, lambda: kage.Pack(folder / "none"), "manifest.json")

@@ -7,7 +7,7 @@ import re
 from looks import looks
 from page import at_rest, check, panel, sheet, stalls_by_phase
 
-# Of each entry of the history: index and text of the token, what it is of, and the first words of what the RTL did.
+# Entries of the history: index and text of the token, the token it comes from, and the first words of the RTL's events.
 ENTRIES = """[...document.querySelectorAll('#pixel .history > li')].map(li => ({
     token: li.querySelector('.token')?.innerText ?? '', from: li.querySelector('.from')?.innerText ?? '',
     rtl: [...li.querySelectorAll('.rtl')].map(e => e.innerText.replace(/^RTL, (token \\d+, )?cycle \\d+, /, '').split(':')[0])}))"""

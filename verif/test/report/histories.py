@@ -16,7 +16,7 @@ TELL = """(async () => {
 
 
 def as_explain(frame, x, y, h):
-    """What kage explain prints, from what the page tells."""
+    """The output of kage explain, from the data of the page."""
     count = len(h["touches"])
     lines = [f"frame {frame}, pixel {x},{y}: " + ("1 token touches it" if count == 1 else f"{count} tokens touch it")]
     for t in h["touches"]:

@@ -38,7 +38,7 @@ def looks(b, name):
 
 
 def before_pictures(b):
-    """What stands there before the pictures are read: their scale, and a word in the pixel's panel."""
+    """The page before the pictures are read: their scale, and a word in the pixel's panel."""
     script = b.call(
         "Page.addScriptToEvaluateOnNewDocument",
         source="HTMLImageElement.prototype.decode = () => new Promise(() => {});",

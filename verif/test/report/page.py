@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What a reader of a page does and sees: pixels clicked, keys, the panel, tables as numbers."""
+"""A reader's actions on a page and their effects: pixels clicked, keys, the panel, tables as numbers."""
 
 import json
 import sys

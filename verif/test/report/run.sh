@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The report page in headless Chromium: bash run.sh KAGE SOURCE CHROMIUM PICTURES. What it looked like is left in PICTURES.
+# The report page in headless Chromium: bash run.sh KAGE SOURCE CHROMIUM PICTURES. Screenshots are left in PICTURES.
 chromium=$3 pictures=$4
 . "$2/verif/test/cli/common.bash"
 mkdir -p "$pictures"

@@ -30,7 +30,7 @@ def psnr(r):
 
 
 def beyond(r, limits):
-    """What a row is beyond the limits in, as the table says it."""
+    """The limits that a row is beyond, as the table names them."""
     flip = r["accuracy"]["flip"]
     told = {
         "gross": r["accuracy"]["gross_wrong"] > 0,
@@ -43,7 +43,7 @@ def beyond(r, limits):
 
 
 def cheapest(some, limits, cost):
-    """What docs/sweep.md says the page chooses, told a second time."""
+    """The choice of the page by docs/sweep.md, implemented a second time."""
     within = [i for i, r in enumerate(some) if not beyond(r, limits)]
     order = [COSTS[cost], wrong, lambda r: -psnr(r), *COSTS.values()]
     return min(within, key=lambda i: ([of(some[i]) for of in order], i), default=None)

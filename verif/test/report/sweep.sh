@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The page of kage sweep in headless Chromium: bash sweep.sh KAGE SOURCE CHROMIUM PICTURES. What it looked like is left in PICTURES.
+# The page of kage sweep in headless Chromium: bash sweep.sh KAGE SOURCE CHROMIUM PICTURES. Screenshots are left in PICTURES.
 chromium=$3 pictures=$4
 . "$2/verif/test/cli/common.bash"
 mkdir -p "$pictures"

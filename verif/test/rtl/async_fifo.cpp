@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // async_fifo between two clocks of any ratio and phase: order, capacity, latency, a word a clock of the slower side.
-// That it holds for bits caught while they change is proved (verif/test/formal/async_fifo_proof.sv).
+// A proof shows that it holds for bits caught while they change (verif/test/formal/async_fifo_proof.sv).
 #include <deque>
 
 #include "Vasync_fifo4.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of RTL modules share: what drives a module (drive.hpp), a seed that is printed and can be repeated
-// (KAGE_SEED), and access to the fields of buses.
+// Shared parts of the tests of RTL modules: the driver of a module (drive.hpp), a seed that is printed and can be
+// repeated (KAGE_SEED), and access to the fields of buses.
 #pragma once
 
 #include <cstdint>

@@ -62,7 +62,7 @@ class Core {
     const bool w = top.m_axil_wvalid_o && top.m_axil_wready_i;
     const bool ar = top.m_axil_arvalid_o && top.m_axil_arready_i;
     REQUIRE(!(reset_ && (aw || w || ar)));
-    // What is offered stays until it is taken, unless the core is held.
+    // An offer stays until it is taken, unless the core is held.
     if (aw_waits_ && !reset_ && !top.hold_o) REQUIRE((top.m_axil_awvalid_o && top.m_axil_awaddr_o == aw_was_));
     if (w_waits_ && !reset_ && !top.hold_o) REQUIRE((top.m_axil_wvalid_o && top.m_axil_wdata_o == w_was_));
     if (ar_waits_ && !reset_ && !top.hold_o) REQUIRE((top.m_axil_arvalid_o && top.m_axil_araddr_o == ar_was_));
@@ -129,7 +129,7 @@ class Registers {
       *port = static_cast<SData>(dice_.bits(16));
   }
 
-  /// What a read answers.
+  /// The answer to a read.
   Answer read_of(std::uint32_t address) {
     const std::uint32_t word = address & ~3U;
     if (address < 0x100) {
@@ -243,7 +243,7 @@ class Registers {
     return response;
   }
 
-  /// What all outputs must be while nothing is written.
+  /// Requires of all outputs their values while nothing is written.
   void require_settings() {
     REQUIRE(top->hold_o == hold);
     REQUIRE(top->loop_o == loop);

@@ -27,14 +27,14 @@ struct Wrong : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What a frame has of units: faces of each, and segments of each one's line; without segments it has no tree.
+/// The units' part of a frame: faces of each unit, and segments of each one's line; without segments it has no tree.
 struct Units {
   int faces = 0;
   int segments = 0;
 };
 
-/// What a frame has of light: entries of its table, and in each line so many samples, each of an NC and an EV of a
-/// pixel and an ES [0, es_xr), and so many TPs of a pixel.
+/// The light's part of a frame: entries of its table, and `translucent` TPs of a pixel in each line. Each line also has
+/// `samples` samples, each of an NC and an EV of a pixel and an ES [0, es_xr).
 struct Light {
   int entries = 0;
   int samples = 0;
@@ -85,7 +85,7 @@ class FrameWriter {
   /// Faces of each unit: a segment has one.
   [[nodiscard]] int faces() const { return std::max(w_.units.faces, w_.units.segments > 0 ? 1 : 0); }
 
-  /// Of a line, unit by unit; nothing of a frame without a tree.
+  /// The segments of a line, unit by unit; none in a frame without a tree.
   void segments() {
     SegmentToken seg;
     seg.z = std::int64_t{1} << (c_.z_bits + c_.z_frac - 2);
@@ -117,7 +117,7 @@ class FrameWriter {
     out_.eol(y);
   }
 
-  /// What samples and TPs are seen on: an OP of a pixel.
+  /// An OP of a pixel, on which samples and TPs are seen.
   void wall() {
     SpanToken s = span_;
     s.xl = 0;
@@ -188,7 +188,7 @@ class Measurement {
  private:
   [[nodiscard]] double of(const Work& w) const { return clocks(model_, w); }
   [[nodiscard]] int groups(int xl, int xr) const { return banked_ ? (xr - 1) / lanes_ - xl / lanes_ + 1 : 1; }
-  /// What a token of this kind takes that touches so many groups.
+  /// The clocks of a token of this kind that touches this number of groups.
   [[nodiscard]] double of_token(Kind k, int groups) const {
     const int words = layout_.words[static_cast<std::size_t>(k)];
     return std::max({1.0, static_cast<double>(groups), static_cast<double>(words) / c_.beat_words});

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole core behind a display that takes a pixel when the beam is there and waits for nobody: a display whose line
-// has the clocks that needed_line() asks for is never waited for, and one whose line is shorter is. Prints, for each
-// core, how late pixels came; exits 1 if one was late that should not have been, or none that should.
+// The whole core behind a display that takes a pixel when the beam is there and waits for nobody. With the clocks a
+// line that needed_line() asks for no pixel may be late; with fewer, some must be. Prints, for each core, how late
+// pixels came. Exits 1 if one was late that should not have been, or none that should.
 //
 // usage: core_display MODEL.so...
 #include <algorithm>
@@ -24,10 +24,10 @@ namespace {
 using namespace kage;
 using Words = std::vector<std::uint32_t>;
 
-// Of the needed clocks, what is too few.
+// The share of the needed clocks that is too few.
 constexpr double kLess = 0.9;
 
-/// The segments of a line of all units, so many of each as its length asks for, or a few more.
+/// The segments of a line of all units, of each as many as its length asks for, or a few more.
 void segments(TokenWriter& out, const Config& c, int width, std::mt19937& random) {
   SegmentToken t;
   const int least = (width - 1) / ((1 << c.dx_bits) - 1) + 1;
@@ -41,9 +41,9 @@ void segments(TokenWriter& out, const Config& c, int width, std::mt19937& random
     }
 }
 
-/// A frame of lines with a few tokens and lines with many, single ones and runs of them, or of lines with few alone;
-/// each over a line of the tree, if the core has units; if `comes_back`, some lines whose colours come back before
-/// their TPs.
+/// A frame of lines with a few tokens and lines with many, single ones and runs of them; with `few`, of lines with few
+/// alone. Each is over a line of the tree, if the core has units. With `comes_back`, some lines' colours come back
+/// before their TPs.
 Words frame_of(const Config& c, int width, int height, bool few, bool comes_back, std::mt19937& random) {
   const auto below = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
   Words words;

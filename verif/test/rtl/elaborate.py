@@ -13,9 +13,9 @@ usage: elaborate.py SOURCE_DIR READER... [--pyslang FOLDER]
 Each tool must also refuse an illegal parameter, by its message: else "accepted" would say nothing. Icarus Verilog refuses
 when the simulation starts (rtl/include/kage_illegal.svh).
 
-slang also tells where a cast shortens a value within a longer expression, as in a - 4'(five_bits) == b. yosys, 0.23 as well
-as 0.70, takes such a value at its full width there, without a word, so that its netlist is another core than the one that
-simulates. A signal of its own is read alike by all.
+slang also reports where a cast shortens a value within a longer expression, as in a - 4'(five_bits) == b. Both yosys
+0.23 and 0.70 take such a value at its full width there, without a word, so that their netlist is another core than the
+one that simulates. All tools read a signal of its own alike.
 """
 
 import argparse
@@ -48,8 +48,8 @@ BOARDS = {
 }
 # Pairs of random configurations, with a front end and without.
 RANDOM_PAIRS = {"verilator": 3, "iverilog": 3, "yosys": 3, "slang": 100}
-# What Icarus Verilog tells of itself. Neither changes what it simulates: no two cases of a `unique case` overlap, as Verilator's
-# assertions check, and an always_comb that wakes more often comes to the same values.
+# Messages of Icarus Verilog about itself. Neither changes what it simulates: no two cases of a `unique case` overlap,
+# as Verilator's assertions check, and an always_comb that wakes more often comes to the same values.
 ICARUS_LACKS = [
     "sorry: Case unique/unique0 qualities are ignored",
     "sorry: constant selects in always_* processes are not currently supported (all bits will be included)",

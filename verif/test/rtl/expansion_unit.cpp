@@ -60,7 +60,7 @@ class Frames {
   static constexpr TreeShape kOf = tree_shape_of<Model>();
   static constexpr int kFrames = 12;
 
-  /// What goes in this clock: a flush, the begin of a frame, a face, a segment.
+  /// Offers the input of this clock: a flush, the begin of a frame, a face, a segment.
   void offer() {
     flush_ = flushes_ && dice_.below(400) == 0;
     const bool frame_over = to_give_.empty() && giving_.empty();

@@ -13,8 +13,8 @@ using kage::Kind;
 
 namespace {
 
-/// A frame of 2 lines that begins with `body`, whose last token is at fault, and goes on with `rest`; what the error
-/// is, that the rest is blank, and that the next frame is none the worse.
+/// Runs a frame of 2 lines that begins with `body`, whose last token is at fault, and goes on with `rest`. Checks the
+/// error, that the rest is blank, and that the next frame is none the worse.
 void expect_rest(const std::vector<Token>& body, const std::vector<Token>& rest, ErrorCode code, unsigned line,
                  unsigned index) {
   constexpr unsigned height = 2;
@@ -53,8 +53,8 @@ Token late_end() {
   return t;
 }
 
-/// As expect_rest, whatever comes right behind the token at fault, while it is still in token_stage: a good and a bad
-/// EOL, END, and cut token, each alone and with more behind it, as far as there can be more.
+/// As expect_rest, with each kind of token right behind the token at fault, while it is still in token_stage: a good
+/// and a bad EOL, END, and a cut token. Each comes alone and, where there can be more, with more behind it.
 void expect_error(const std::vector<Token>& body, ErrorCode code, unsigned line, unsigned index) {
   if (body.back().final) {
     expect_rest(body, {}, code, line, index);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What the tests of frame_control share: tokens as token_reader gives them, and what they become under any stalls.
+// Shared parts of the tests of frame_control: tokens as token_reader gives them, and what they become under any stalls.
 #pragma once
 
 #include <algorithm>

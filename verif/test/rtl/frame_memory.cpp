@@ -75,7 +75,8 @@ class Sdram {
   std::int64_t core_, memory_, next_core_, next_memory_;
 };
 
-/// What a word may be that is written while its run goes on: as it was when the run was accepted, or any since.
+/// Runs while words are written. A word that is written while its run goes on may be read as it was when the run was
+/// accepted, or as any since.
 template <class Memory>
 void runs_test(int rounds, int clocks) {
   int checked = 0;  // of all rounds: in one that writes seldom no run may meet what was written

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // front_end against the golden front end, token by token: frames of both levels, sound and damaged, with stalls on both
-// sides, and dropped by what is behind it at a fault or at any other token.
+// sides. The module behind it drops some of them, at a fault or at any other token.
 #include "polygon/front_end.hpp"
 
 #include <algorithm>
@@ -69,7 +69,7 @@ std::vector<Passed> read(const Config& c, const Words& frame) {
   return out;
 }
 
-/// What must come of them, up to the first that is bad.
+/// The tokens that must come out for `in`, up to the first that is bad.
 std::vector<Passed> expected(const Config& c, const std::vector<Passed>& in) {
   const kage::Layout layout(c);
   const Level level = kage::FrameHeader::read(in[0].words).level();

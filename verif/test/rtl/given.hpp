@@ -17,7 +17,7 @@ struct Given {
   int value;
 };
 
-/// Of a model; parameters of its module that are not listed have their defaults.
+/// The given parameters of a model; parameters of its module that are not listed have their defaults.
 template <class Model>
 inline constexpr std::array<Given, 0> kGiven{};
 

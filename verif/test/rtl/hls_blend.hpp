@@ -9,7 +9,7 @@
 
 namespace kage::rtl {
 
-/// What is wrong, or nothing. `model`: of hls_blend_bench.sv.
+/// The error that was found, or nothing. `model`: a model of hls_blend_bench.sv.
 template <class Model>
 std::string wrong_in_blend(Model& model, int shade_frac) {
   for (const bool darkens : {true, false}) {
@@ -17,7 +17,7 @@ std::string wrong_in_blend(Model& model, int shade_frac) {
     model.darkens_i = darkens ? 1 : 0;
     for (std::uint32_t share = 0; share <= most; ++share) {
       model.share_i = share;
-      // What RESOLVE has there is any colour.
+      // RESOLVE does not depend on this colour, so any one will do.
       const std::uint32_t first = darkens ? share * 37 % 256 : 0;
       const std::uint32_t last = darkens ? first : 255;
       for (std::uint32_t over = first; over <= last; ++over) {

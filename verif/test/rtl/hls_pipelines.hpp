@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The pipelines that hls/tool makes, against the kernels that they are made of. Of a kernel `offer(dice, model)` makes
-// an input, puts it on the ports and gives what the kernel makes of it as an array; `result(model)` reads the output
-// ports as the same array. The vectors take any bits, not only those that the front end can have.
+// The pipelines that hls/tool makes, against the kernels that they are made of. For each kernel, `offer(dice, model)`
+// makes an input, puts it on the ports and gives the kernel's result as an array. In the same way `result(model)`
+// reads the output ports as the same array. The vectors take any bits, not only those that the front end can have.
 #pragma once
 
 #include <array>
@@ -132,14 +132,14 @@ struct Stalls {
   [[nodiscard]] bool none() const { return in + out == 0 && !waits; }
 };
 
-/// What each round of a test goes through: no stalls, some, and some with a sink that waits.
+/// The stalls of each round of a test: none, some, and some with a sink that waits.
 inline std::array<Stalls, 3> all_stalls(Dice& dice) {
   const auto some = [&dice](bool waits) { return Stalls{stall_percent(dice), stall_percent(dice), waits}; };
   return {Stalls{}, some(false), some(true)};
 }
 
 /// Sends `count` inputs through a pipeline of `stages` stages: the same results in the same order whatever stalls, and
-/// a result a clock, `stages` clocks behind its input, where nothing does. Gives what is wrong, or nothing.
+/// a result a clock, `stages` clocks behind its input, where nothing does. Gives the error that was found, or nothing.
 template <class Ports, class Model>
 std::string wrong_in(Bench<Model>& top, Dice& dice, std::uint64_t stages, long count, const Stalls& stalls) {
   std::deque<std::pair<decltype(Ports::result(*top)), std::uint64_t>> wanted;

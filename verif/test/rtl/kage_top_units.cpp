@@ -120,7 +120,7 @@ void waiting_test() {
   each_seed(20, [&](Dice& dice) {
     const int limit = dice.between(1, 50);
     const auto order = random_order(dice, c.units);
-    // Of any width that segments have, with lines shorter than the tree has levels too.
+    // Lines of any width that segments have, lines shorter than the tree has levels among them.
     const TreeFrame f = tree_frame(dice, c, dice.between(3, 15), 3, order, 0);
     const int line = dice.below(3);
     const auto& ends = f.unit_ends[static_cast<std::size_t>(line)];

@@ -84,7 +84,7 @@ class Ramp {
     return fresh;
   }
 
-  /// What the stages and the walker hold after this clock.
+  /// Moves the stages and the walker to their contents after this clock.
   void move(const Span& fresh) {
     if (load_) {
       walker_ = {true, queue_.front(), 0};

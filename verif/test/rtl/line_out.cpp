@@ -21,7 +21,7 @@ struct Shape : kage::Config {
   [[nodiscard]] constexpr bool has_loads() const { return kage::derived::has_loads(*this); }
 };
 
-/// What the lines of a frame have in common.
+/// The values that the lines of a frame have in common.
 struct Frame {
   int width = 1;
   std::uint32_t background = 0, shade = 0;
@@ -48,7 +48,7 @@ struct Load {
 
 using Table = std::vector<std::array<std::array<std::uint32_t, 3>, 8>>;  // share by class, light, channel
 
-/// What a pixel keeps of a channel, in 2^-shade_frac.
+/// The part of a channel that a pixel keeps, in 2^-shade_frac.
 std::uint32_t factor(const Shape& s, std::uint64_t pixel, const Table& table, std::uint32_t shade,
                      std::size_t channel) {
   const std::int64_t one = std::int64_t{1} << s.shade_frac;
@@ -67,7 +67,7 @@ std::uint32_t factor(const Shape& s, std::uint64_t pixel, const Table& table, st
   return static_cast<std::uint32_t>(std::max<std::int64_t>(kept, 0));
 }
 
-/// What a pixel of a line leaves as.
+/// The colour that leaves for a pixel of a line.
 std::uint32_t color_of(const Shape& s, const Line& l, std::uint64_t pixel, const Table& table) {
   const bool drawn = get(pixel, ExitWord(s).covered) != 0 || (s.translucency != 0 && l.painted);
   if (l.blank || !drawn) return l.frame.background;
@@ -200,7 +200,7 @@ class Lines {
     top_->exit_last_i = filled_ + kShape.lanes >= l.frame.width ? 1 : 0;
   }
 
-  /// What is offered stays until it is taken, and is what was expected.
+  /// An offer stays until it is taken, and is the expected one.
   void look() {
     const Out now{top_->m_axis_tdata_o, top_->m_axis_tuser_o != 0, top_->m_axis_tlast_o != 0};
     if (waited_) {

@@ -176,7 +176,7 @@ void keeps_and_compares() {
         REQUIRE(top.host_check() > 0);
       }
       top.clear();
-      // What the first pass left is what the second must be, but for what the host changes.
+      // The second pass must find what the first pass left, but for what the host changes.
       for (std::size_t place = 0; place < top.ram.size(); ++place) {
         const auto value = static_cast<std::uint32_t>(dice.bits(32));
         const auto bit = std::uint32_t{1} << dice.below(32);

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Elaboration refuses every parameter out of its range and all that breaks a rule, by name, and takes the ends of the
-ranges. Ranges and rules are those of rtl/defs/kage.yaml. A run of Verilator tells all that is wrong, so one run tries
-many parameters. Of rtl/board, whose modules say themselves what is legal, each reason has its case.
+ranges. Ranges and rules are those of rtl/defs/kage.yaml. A run of Verilator reports all faults, so one run tries many
+parameters. The modules of rtl/board say themselves what is legal; each of their reasons has its case.
 
 usage: parameters.py SOURCE_DIR
 """
@@ -44,8 +44,8 @@ LEGAL = (
     "UNITS=5 CLASSIC=1 Z_BITS=15 Z_FRAC=0",
 )
 
-# Of each module of rtl/board, parameters for each of its reasons, in the order in which it gives them, and legal ones at
-# the ends of ranges.
+# For each module of rtl/board, parameters for each of its reasons, in the order in which it gives them, and legal ones
+# at the ends of ranges.
 BOARD = {
     "async_fifo": (["DEPTH=6", "DEPTH=2"], ["DEPTH=4"]),
     "block_memory": (["WORDS=100", "WORDS=1024 ADDR_BITS=9"], ["WORDS=2 ADDR_BITS=1"]),

@@ -246,7 +246,7 @@ TEST_CASE("The watchdog bites once, after its clocks without progress, in a fram
     }
     a.clock();
     CHECK(a.top->irq_o);
-    // What was waited for then, whatever has come since.
+    // STALL tells what was waited for at the bite, whatever has come since.
     a.behind(6, 77);
     a.top->behind_valid_i = a.top->waiting_input_i = 0;
     a.clock();

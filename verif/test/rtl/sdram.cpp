@@ -191,7 +191,7 @@ TEST_CASE("rows that are refreshed too seldom lose their words", "[sdram]") {
       for (int i = 0; i < 40; ++i) top.edge();
       return first;
     };
-    // Of two rows the one that is near its turn lives.
+    // Two rows: only the one that is near its turn lives.
     write(2000U << 10, 0x12345678);
     write(0, 1);
     REQUIRE(read(2000U << 6) == 0x12345678);

@@ -127,7 +127,7 @@ class Rules {
   bool begun = false, tree = false, due = false;  // begun: something other than SHADE and FACE has come
 
  private:
-  /// What is wrong with a segment, and for which line.
+  /// The fault of a segment, and its line.
   std::optional<std::pair<int, Code>> fault_of(const Token& t) const {
     const Unit& unit = units[static_cast<std::size_t>(t.unit)];
     if (unit.lines > line + 1) return {{line + 1, Code::UNIT_LONG}};
@@ -267,7 +267,7 @@ void silent(Top& top, Dice& dice) {
   top.token_i = static_cast<IData>(dice.bits(32));
 }
 
-/// What came, over all seeds.
+/// Counts of what came, over all seeds.
 struct Seen {
   std::map<Code, int> codes;
   int sound = 0, later = 0, crowds = 0, swallowed = 0;
@@ -330,7 +330,7 @@ class Frames {
  private:
   static constexpr Shape kOf{config_of<Model>()};
 
-  /// What was set is taken; then nothing is.
+  /// The inputs that were set are taken; then there are none.
   void clock() {
     top_.settle();
     top_.edge();

@@ -25,7 +25,7 @@ constexpr int run_bits() {
   return 15;
 }
 
-/// Everything around the player. What comes out is collected, and what may never happen is refused in every clock.
+/// Everything around the player. Its output is collected, and forbidden behaviour is refused in every clock.
 template <class Model>
 class Stage {
  public:
@@ -156,7 +156,7 @@ class Stage {
     return is;
   }
 
-  /// What came out is `count` whole frames of the list, which begins anew behind its end.
+  /// The output is `count` whole frames of the list, which begins anew behind its end.
   void require_frames(const Frames& frames, std::size_t count) {
     std::vector<Beat> expected;
     Words words;
@@ -251,7 +251,8 @@ void lists() {
       top->loop_i = loop ? 1 : 0;
       top->paced_i = paced ? 1 : 0;
       top->address_i = static_cast<IData>(address);
-      // Of the link's list the end is passed over with loop_i: it is sent twice, and more comes until somebody stops.
+      // With loop_i the player passes over the end of the link's list: it is sent three times, and more is awaited
+      // until somebody stops.
       Words list = words_of(frames, dice, true);
       stage.link.clear();
       if (direct) {

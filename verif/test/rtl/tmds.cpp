@@ -120,7 +120,7 @@ class Link {
   std::unique_ptr<Vdvi_link> top_;
 };
 
-// What a link shows of `in`: syncs hold while colour is sent, since nothing carries them there.
+// The view of `in` at a link's other end: syncs hold while colour is sent, since nothing carries them there.
 struct Seen {
   bool hsync = false, vsync = false;
   VideoPixel of(const VideoPixel& in) {

@@ -108,7 +108,8 @@ class Core {
     REQUIRE(pixels == expected);
   }
 
-  /// Reset for so many clocks, with all ports at rest. What was submitted and has not left is forgotten.
+  /// Reset for this number of clocks, with all ports at rest. Frames that were submitted and have not left are
+  /// forgotten.
   void reset(int clocks) {
     idle();
     top->rst_ni = 0;
@@ -183,7 +184,7 @@ void reset_test() {
       REQUIRE(!top.s_axil_rvalid_o);
       REQUIRE(!top.s_axil_bvalid_o);
     }
-    // What is offered through reset is taken after it.
+    // A frame that is offered through reset is taken after it.
     Core<Model> fresh(dice);
     fresh.submit(frame(dice, c, dice.between(1, c.max_width), 2));
     fresh.top->rst_ni = 0;

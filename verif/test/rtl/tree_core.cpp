@@ -62,7 +62,7 @@ void quiet(Top& top) {
   top.line_ready_i = 0;
 }
 
-/// What a frame brings, in order: faces, segments, and TREE's claims.
+/// An event of a frame; they come in order: faces, segments, and TREE's claims.
 struct Event {
   enum Kind { kFace, kSegment, kClaim } kind;
   int unit, number;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faces, segments and the pixels they mean, as docs/stream.md says it ("Units and the tree"): what the tests of the
-// expansion unit and of the units' core hold the RTL against, and lines to feed them with.
+// Faces, segments and the pixels they mean, as docs/stream.md says it ("Units and the tree"), and lines of them to
+// feed. The tests of the expansion unit and of the units' core hold the RTL against these pixels.
 #pragma once
 
 #include <algorithm>

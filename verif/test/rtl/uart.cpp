@@ -60,8 +60,8 @@ double clocks_a_bit() {
   return static_cast<double>(parameter<Model>("CLOCK_HZ")) / parameter<Model>("BAUD");
 }
 
-/// How far the sender's rate may be off, as uart_receiver.sv derives it: the stop bit is read at 9.5 bits, give or take
-/// a clock, and ends 10 of the sender's bits after the start bit's edge. Less the accumulator's rounding.
+/// How far the sender's rate may be off, as uart_receiver.sv derives it, less the accumulator's rounding. The stop bit
+/// is read at 9.5 bits, give or take a clock, and ends 10 of the sender's bits after the start bit's edge.
 double tolerance(double bit) { return (0.5 - 1 / bit) / 10 - 0.0003; }
 
 struct Heard {
@@ -117,7 +117,8 @@ void receives() {
       INFO("off by " << off);
       REQUIRE(heard_back_to_back<Model>(dice, bytes, off) == bytes);
     }
-    // What is off by so much that the stop bit is read beside its edge is not understood, whatever the phase.
+    // A sender is not understood, whatever the phase, if it is off by so much that the stop bit is read beside its
+    // edge.
     const double too_much = 0.07;
     REQUIRE(heard_back_to_back<Model>(dice, bytes, -too_much) != bytes);
     // Pauses of any length.

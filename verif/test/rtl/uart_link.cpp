@@ -120,7 +120,7 @@ class Board : public kage::board::Transport {
       REQUIRE(top->rx_ready_o);
       to_board.bytes.pop_front();
     }
-    // What is offered stays until it is taken.
+    // An offer stays until it is taken.
     if (offered_tx_) REQUIRE((top->tx_valid_o && top->tx_data_o == tx_data_));
     if (offered_aw_) REQUIRE((top->m_axil_awvalid_o && top->m_axil_awaddr_o == aw_data_));
     if (offered_ar_) REQUIRE((top->m_axil_arvalid_o && top->m_axil_araddr_o == ar_data_));
@@ -215,7 +215,7 @@ std::vector<std::uint32_t> some_words(Dice& dice, int most) {
   return words;
 }
 
-/// What must have arrived.
+/// The words that must have arrived.
 struct Truth {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> written;
   std::vector<std::uint32_t> streamed;
@@ -540,7 +540,7 @@ TEST_CASE("A board that answers and executes nothing is stalled, and not for eve
               for (int i = 0; i < 10; ++i) link.stream(std::vector<std::uint32_t>(3));
             }) == LinkFailure::stalled);
     REQUIRE(board.now() > 50'000);
-    // What that session sent is executed before the next begins.
+    // The transfers that this session sent are executed before the next begins.
     REQUIRE(failure_of([&] { link.hello(); }) == LinkFailure::stalled);
     board.sink_blocked = false;
     link.hello();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// video_out between two clocks of any ratio: what the screen shows, line by line, against the frames that were sent and
-// the counts; underruns of each kind, made on purpose; and the whole way through a DVI link.
+// video_out between two clocks of any ratio: the screen, line by line, against the frames that were sent, and the
+// counts. Underruns of each kind are made on purpose; one test goes the whole way through a DVI link.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -112,7 +112,7 @@ class Board {
   Board(const Board&) = delete;
   Board& operator=(const Board&) = delete;
 
-  /// Both sides at once. What the source was about to send is gone.
+  /// Both sides at once. Words that the source was about to send are gone.
   void reset() {
     top_->rst_ni = 0;
     top_->pix_rst_ni = 0;
@@ -284,7 +284,7 @@ class Board {
   std::unique_ptr<Model> top_;
 };
 
-/// What the contract says of the screen, kept from frame to frame: the last colour, and the picture's place.
+/// The screen as the contract has it, kept from frame to frame: the last colour, and the picture's place.
 class Reading {
  public:
   /// A screen, and the frame that it began, if it began one. Gives how many lines ran short.
@@ -573,8 +573,8 @@ TEST_CASE("two lines wait while the screen is in blanking", "[video_out]") {
   });
 }
 
-// From its release on a pixel a clock is dropped. A line later the beam is a line on, and less than a line's clocks
-// were needed for the late line: so each that much later costs one line more, wherever in a line the stream comes back.
+// From its release on a pixel a clock is dropped. A line later the beam is a line on, and the late line needed less
+// than a line's clocks. So each such gain of delay costs one line more, wherever in a line the stream comes back.
 TEST_CASE("lines are late by every number of clocks", "[video_out]") {
   each_seed(1, [](Dice& dice) {
     const int gain = mode_of(false).h_total() - kWide;

@@ -46,7 +46,7 @@ TEST_CASE("built-in scenes: surfaces and shadows are what rays say of the unsnap
     CHECK(count.good());
     CHECK(count.lit > 1000);
     CHECK(count.shadowed > 1000);
-    // What the snap alone changes: little, but in `edges`, whose edges run through pixel centres.
+    // The snap alone changes little, but in `edges`, whose edges run through pixel centres.
     CHECK((count.near_surface + count.near_shadow) * 50 < count.pixels);
   }
 }

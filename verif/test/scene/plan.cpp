@@ -124,7 +124,7 @@ TEST_CASE("preferences are kept: no other way or arrangement has fewer clocks, l
     CHECK(speed.smallest.config == area.config);
     for (const Plan* p : {&speed, &area, &words})
       for (const PlanCandidate& other : p->others) CHECK(other.cost.words > 0);
-    // Of what is equal in look-up tables none has fewer clocks; of what is equal in clocks none fewer look-up tables.
+    // No candidate as small as `area` has fewer clocks; none as fast as `speed` has fewer look-up tables.
     for (const PlanCandidate& c : area.others)
       CHECK((c.cost.luts > 1.01 * smallest || clocks(c.cost) >= clocks(area.cost)));
     for (const PlanCandidate& c : speed.others)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What tests of plans share: the scenes, and how a reason is read.
+// Shared parts of the tests of plans: the scenes, and how a reason is read.
 #pragma once
 
 #include <algorithm>
@@ -76,8 +76,8 @@ inline bool refused(const PlannedScene& scene, Config config, int Config::*membe
   return false;
 }
 
-/// Whether a reason says what stands against one less of its parameter: a limit that was passed, in a picture or by an
-/// inequality; the scene, which is then tried; the costs; or that there is none less.
+/// Checks that a reason says why its parameter is not one less: a limit that was passed, in a picture or by an
+/// inequality; the scene, which is then tried; the costs. Or it says that there is none less.
 inline void check_one_less(const Plan& plan, const PlanReason& r, const PlannedScene& scene) {
   const ParamInfo& p =
       *std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& q) { return q.name == r.parameter; });

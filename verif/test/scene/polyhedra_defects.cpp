@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small defects of polyhedra are told: by rays through the unsnapped scene what is wrong from the geometry on, by the
-// judge what the front end makes wrong of right outlines, and what lies below the errors that both excuse by the law
-// that segments and spans give the same bits.
+// Small defects of polyhedra are found in three ways. Rays through the unsnapped scene find errors from the geometry
+// on. The judge finds the front end's errors in right outlines. Defects below the errors that both excuse are found
+// by the law that segments and spans give the same bits.
 #include "oracle/ray_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"

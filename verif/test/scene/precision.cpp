@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What rounding in doubles does left of the snap: transform, clipping and projection of every corner of every drawn
-// face once more in floating point of 333 bits, which shares no arithmetic with the golden model.
+// The effect of rounding in doubles before the snap. Transform, clipping and projection of every corner of every drawn
+// face are done once more in floating point of 333 bits, which shares no arithmetic with the golden model.
 //
 // `scene_precision -s` prints how many corners snap otherwise, a line for each scene.
 #include <fmt/format.h>

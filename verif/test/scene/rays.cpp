@@ -19,7 +19,7 @@ void check_mesh(const std::string& file, int width, int height, int step) {
   CHECK(count.good());
   CHECK(count.lit > 0);
   CHECK(count.shadowed > 0);
-  // What the snap alone changes.
+  // Only the snap changes these.
   CHECK((count.near_surface + count.near_shadow) * 50 < count.lit + count.shadowed);
 }
 

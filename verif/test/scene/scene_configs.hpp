@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What tests of whole scenes ask of a core, and of a scene.
+// The demands of tests of whole scenes on a core, and on a scene.
 #pragma once
 
 #include <algorithm>

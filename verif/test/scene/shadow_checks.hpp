@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What must hold of any frame with shadow volumes, as assertions.
+// Properties of any frame with shadow volumes, as assertions.
 #pragma once
 
 #include "extremes/shadow_checks.hpp"

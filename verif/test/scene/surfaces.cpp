@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What materials say besides colour: sides that are not to be seen, held against rays that pass them by, and surfaces
-// that no light and no shadow touches, in every named configuration.
+// Properties of materials besides colour: sides that are not to be seen, held against rays that pass them by, and
+// surfaces that no light and no shadow touches, in every named configuration.
 #include <map>
 
 #include "geometry/shade.hpp"

@@ -3,15 +3,15 @@
 //
 // usage: fake_board PACK [FAULT [N]]: prints the device's name, and is a board until it is ended. Its core has the
 // pack's configuration. FAULT is one of
-//   line N    line N since power-up has a wrong pixel whenever its pixels come again
-//   once N    line N since power-up has a wrong pixel
-//   hang N    the core hangs in frame N
-//   back N    the core hangs in frame N, and LINES goes back by one now and then
-//   reset N   the board is reset at the link's frame N
-//   hash      the core has another PARAM_HASH
-//   screen    none: it has a screen, for which a line of each frame is too late
-//   memory N  word N of the memory is read wrong
-//   silent N  the memory gives no word from N on
+//    line N    line N since power-up has a wrong pixel whenever its pixels come again
+//    once N    line N since power-up has a wrong pixel
+//    hang N    the core hangs in frame N
+//    back N    the core hangs in frame N, and LINES goes back by one now and then
+//    reset N   the board is reset at the link's frame N
+//    hash      the core has another PARAM_HASH
+//    screen    none: it has a screen, for which a line of each frame is too late
+//    memory N  word N of the memory is read wrong
+//    silent N  the memory gives no word from N on
 #include "test/support/fake_board.hpp"
 
 #include <fcntl.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A board as a host sees it, without RTL: the other end of the link, the registers of rtl/defs/board.yaml, memory and
-// player by the contracts of rtl/board, and the golden core in the core's place. What it does may be spoiled.
+// player by the contracts of rtl/board, and the golden core in the core's place. Tests may inject faults into it.
 #pragma once
 
 #include <zlib.h>
@@ -252,7 +252,7 @@ class FakeBoard : public board::Transport {
       axi_error_ = true;
       return 0;
     }
-    // What the pack says of such frames; a fault may say otherwise.
+    // The value that the pack has for such frames; a fault may change it.
     std::uint32_t value = 0;
     const std::vector<vectors::RegisterRead> reads = vectors::register_reads(config_, ended_);
     for (const vectors::RegisterRead& r : reads)
@@ -304,7 +304,7 @@ class FakeBoard : public board::Transport {
   void stop() {
     if (!hung_ && !starved_) playing_ = false;
   }
-  /// What time does elsewhere: a list that is played over and over goes on whenever the host looks.
+  /// Stands for the passing of time: a list that is played over and over goes on whenever the host looks.
   void step() {
     if ((control_ & KAGE_BOARD_CONTROL_LOOP_MASK) == 0) return;
     for (int i = 0; i < 7 && playing_ && !hung_ && !starved_; ++i) play_frame();

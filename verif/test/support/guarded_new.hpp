@@ -11,7 +11,7 @@
 
 namespace kage::verif {
 
-/// One at a time. What was given may be freed later.
+/// One at a time. Its memory may be freed later.
 class GuardedNew {
  public:
   /// Edge::kEnd: `new` aligns to 16 bytes, so up to 15 lie behind what was asked for. Edge::kBegin: up to a page does.

@@ -40,8 +40,8 @@ inline OrderShape chain_shape(std::uint32_t n) {
   return shape;
 }
 
-/// The order by the definition: what lies on the other side of a node's plane, the node, what lies on the eye's side.
-/// sides[v]: whether the eye is before the plane of v, where its first child lies.
+/// The order by the definition: the subtree on the other side of a node's plane, the node, the subtree on the eye's
+/// side. In sides[v]: whether the eye is before the plane of v, where its first child lies.
 inline void append_order(const OrderShape& shape, const std::vector<bool>& sides, std::uint32_t v, std::uint32_t n,
                          std::vector<std::uint32_t>& order) {
   if (n == 0) return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What holds of frames with polyhedra, as assertions.
+// Properties of frames with polyhedra, as assertions.
 #pragma once
 
 #include "extremes/tree_frames.hpp"
@@ -8,7 +8,7 @@
 
 namespace kage::verif {
 
-/// What a frame's segments are. All that has to be of them is.
+/// The counts of a frame's segments, which must all be right.
 inline SegmentCount count_segments(const Picture& p, const FrameGeometry& g, const Config& config) {
   SegmentCount c = segment_count(p, g, config);
   INFO(c.wrong);
@@ -16,7 +16,8 @@ inline SegmentCount count_segments(const Picture& p, const FrameGeometry& g, con
   return c;
 }
 
-/// The same frame by spans and with each of kUnitCounts units: the same pixels. What the segments were, in that order.
+/// Draws the same frame by spans and with each of kUnitCounts units: the same pixels. Gives the counts of the
+/// segments, in that order.
 inline std::array<SegmentCount, kUnitCounts.size()> same_either_way(const SceneFrame& f, const Config& config,
                                                                     int width, int height) {
   const auto counts = either_way_counts(f, config, width, height);

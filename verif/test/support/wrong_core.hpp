@@ -23,7 +23,7 @@ class WrongCore : public cosim::Core {
   }
   cosim::FrameEnd finish(const LineSink& sink) override { return golden_->finish(changed(sink)); }
 
-  /// Of the frame at hand.
+  /// The number of the frame at hand.
   [[nodiscard]] int number() const { return number_; }
 
  private:

@@ -1,17 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# What a feature costs: cells of kage_top for iCE40 (Debian's yosys). The first row is the base, the next ones differ from it in one
-# feature; `default` is the named configuration.
+# The cost of a feature: cells of kage_top for iCE40 (Debian's yosys). The first row is the base, the next ones differ from it in
+# one feature; `default` is the named configuration.
 #
 # usage: verif/test/synth/cells.sh [--quick | --tree | NAME PARAM=VALUE...]
-#   without arguments the table below; --quick: base, no-shadow, one-channel and small-z only; NAME ...: one configuration;
-#   --tree: the parts of the compare tree alone, cells per compare cell, and the whole core with 1, 2, 4 and 8 units against none
-# Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take, or if it
-# is not smaller (smooth, glass, counter, table2: larger) than the base by at least the LUTs and flip-flops that the feature's state implies: see `implied`.
+#   (none)   the table below
+#   --quick  base, no-shadow, one-channel and small-z only
+#   --tree   the parts of the compare tree alone, cells per compare cell, and the whole core with 1, 2, 4 and 8 units against none
+#   NAME     one configuration
+# Columns: LUTs, flip-flops, carry cells, block RAMs. Exit 1 if a row has not the block RAMs that its two memories take. Exit 1 too
+# if it is not smaller (smooth, glass, counter, table2: larger) than the base by at least the LUTs and flip-flops that the
+# feature's state implies: see `implied`.
 set -euo pipefail
 case ${1:-} in
   --quick | --tree | [!-]* | '') ;;
-  --help) sed -n '3,10s/^# \{0,1\}//p' "$0"; exit 0 ;;
+  --help) sed -n '3,13s/^# \{0,1\}//p' "$0"; exit 0 ;;
   *) echo "cells.sh: $1: no such option; see --help" >&2; exit 2 ;;
 esac
 cd "$(dirname "$0")/../../.."
@@ -144,8 +147,8 @@ print(shares + (blocks(groups, lanes * state) if p["ARRANGEMENT"] == 1 else 0) +
 PY
 }
 
-# ---- what a feature's state implies: the least number of LUTs and flip-flops that go (smooth, glass, counters: come) with it ---------------------------
-# Counted are only what no optimizer can share or drop, in the base's numbers: L = 2 lanes, 24 bits of depth, 3 x 8 of colour,
+# ---- a feature's state implies at least these LUTs and flip-flops, which go (smooth, glass, counters: come) with it --------------------------------------
+# Counted are only bits that no optimizer can share or drop. In the base's numbers: L = 2 lanes, 24 bits of depth, 3 x 8 of colour,
 # S = 9 bits of shade, `Last` = 4 stages behind the walker.
 #   A bit of a pixel's state, per lane: flip-flops stored_q, recent_q, word_q, done_q, done2_q (5); LUTs of the three sources of
 #   `settled` (2), of word_q (1), of the next state (1).
@@ -154,8 +157,8 @@ PY
 #   plain, the skid buffer's choice, two for the queue's four words.
 #   A product of 8 x S bits takes S - 1 additions of 8 bits: a LUT a bit.
 #   A ramp of B bits, F of them fraction: start, slope, low; part, slope2; first, slope3; root, L leaves without fraction (the
-#   last level), slope of the root; L x OUT for the integer part and again for the value. LUTs: low, part, root, right leaf, and the
-#   clamp of each lane's OUT bits.
+#   last level), slope of the root. Then L x OUT for the integer part and again for the value. LUTs: low, part, root, right leaf,
+#   and the clamp of each lane's OUT bits.
 l=2 last=4 s=9
 state_ff=$((5 * l)) state_lut=$((4 * l))
 exit_ff=$((2 * l + 5 + 1 + 2 + 4)) exit_lut=$((1 + 1 + 1 + 2))
@@ -165,7 +168,7 @@ implied() { # NAME: "LUTs flip-flops"
   case $1 in
     # One bit of state, and volume_open_q. LUTs: none, since DSF + bias is now read at the end of the line in place of FSF.
     no-fsf) echo 0 $((state_ff + 1)) ;;
-    # lit, DSF and FSF; dark in exit_data_o, group_q, pixel_q and dark_q; the products with their upper 8 bits; shade in
+    # lit, DSF and FSF; dark in exit_data_o, group_q, pixel_q and dark_q; the products with their upper 8 bits. Shade in
     # frame_control, line_out and queue; bias, phase and volume_open_q; the count in cmd, three set-up stages, walker and stages.
     no-shadow) echo $((3 * state_lut + 3 * product_lut + 24)) $((3 * state_ff + 2 * l + 2 + 3 * 8 + 6 * s + 4 + 5 + last)) ;;
     # 16 bits of colour: in state and exit, and on the way in: cmd, three set-up stages, walker, stages.

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Every path of a board's netlist from a flip-flop or RAM of one clock to one of another is one that a board may have, and the
-board's README lists exactly the modules that have some. Besides, a PLL of ECP5 has its analogue settings. A board may have:
+"""Every path of a board's netlist from a flip-flop or RAM of one clock to one of another is one that a board may have.
+The board's README lists exactly the modules that have some. Besides, a PLL of ECP5 has its analogue settings. A board
+may have:
 
   synchronizer  to meta_q from a flip-flop with no logic between, because logic may glitch; of several bits only in an async_fifo,
                 because no more than one bit may change at a time
@@ -155,7 +156,7 @@ def is_direct(net, bits, foreign):
 
 
 def why_wrong(net, instances, path, register, clock, outs, foreign):
-    """What is wrong with paths from `foreign`, {(register, clock)}, to a register in the instance `path`; or nothing."""
+    """The faults of paths from `foreign`, {(register, clock)}, to a register in the instance `path`; or nothing."""
 
     def of(name):
         return net.nets.get(f"{path}.{name}", [])
@@ -245,7 +246,7 @@ def dead_plls(module):
 
 
 def check(name, extra=(), listed=None, show=False):
-    """What is wrong with a board, with `extra` mutants, a sentence each."""
+    """The faults of a board, with `extra` mutants, a sentence each."""
     board = yaml.safe_load((BOARDS / "boards.yaml").read_text())[name]
     family = yaml.safe_load((TOP / "constraints/devices.yaml").read_text())[board["device"]]["family"]
     with tempfile.TemporaryDirectory() as folder:

@@ -16,7 +16,7 @@ struct Place {
   int bits = 0;
 };
 
-/// What a token says by itself: from token_facts to token_stage.
+/// Facts that a token gives by itself: from token_facts to token_stage.
 struct FactsBus {
   Place head_error;  ///< of a header, unless it is cut
   Place bad_range;  ///< xl > xr, a light that the core lacks, a shade of more than 1
@@ -32,7 +32,7 @@ struct FactsBus {
   }
 };
 
-/// What its frame says of a token: from token_reader to token_stage.
+/// Facts about a token from its place in the frame: from token_reader to token_stage.
 struct FlagsBus {
   Place header;  ///< the frame's first
   Place lacking;  ///< its kind is not in this configuration
@@ -57,7 +57,7 @@ struct FlagsBus {
   }
 };
 
-/// What a token of a frame is to the front end: from polygon_token to front_end.
+/// Role of a token in the front end: from polygon_token to front_end.
 struct RoleBus {
   Place at_token;  ///< an AT
   Place polygon;  ///< a POLYGON
@@ -140,7 +140,7 @@ struct MadeSpanBus {
   }
 };
 
-/// What a token is and finds, judged before it is acted on: from token_stage to frame_control.
+/// Verdict on a token, found before it is acted on: from token_stage to frame_control.
 struct VerdictBus {
   Place header;  ///< as in its flags
   Place cut;  ///< as in its flags
@@ -195,7 +195,7 @@ struct VerdictBus {
   }
 };
 
-/// What the pixels of a range do: from token_command to the pixels.
+/// Command to the pixels of a range: from token_command to the pixels.
 struct CommandBus {
   Place kind;  ///< of the token, or a command that is no token
   Place xl;  ///< first pixel
@@ -289,7 +289,7 @@ struct LoadBus {
   }
 };
 
-/// What happens to the tree in a clock: from frame_control to tree_core.
+/// Events of a clock for the tree: from frame_control to tree_core.
 struct TreeCallBus {
   Place start;  ///< a frame begins
   Place flush;  ///< there will be no more of this frame

@@ -144,7 +144,7 @@ TEST_CASE("a pixel's state after each token") {
 }
 
 TEST_CASE("at the polygon level the stream's tokens are at hand, and what each has come to") {
-  /// What comes of each token, by GoldenCore itself.
+  /// The outcome of each token, by GoldenCore itself.
   struct Observer : kage::CoreObserver {
     explicit Observer(const kage::Config& c) : config(c) {}
     void came(std::uint32_t index, const kage::Token& t, std::span<const std::uint32_t>) override {

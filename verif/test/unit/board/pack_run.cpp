@@ -113,7 +113,7 @@ PackVerdict play(FakeBoard& board, const PackRunOptions& o = options()) {
   return v;
 }
 
-/// What is told of a board that the pack cannot be played on.
+/// The message about a board on which the pack cannot be played.
 std::string trouble(FakeBoard& board, const PackRunOptions& o = options()) {
   try {
     (void)play(board, o);
@@ -411,7 +411,7 @@ TEST_CASE("a core of another configuration is refused, with what to do") {
   FakeBoard unknown(config());
   unknown.other_hash = 0x12345678;
   CHECK(has(trouble(unknown), "PARAM_HASH 12345678"));
-  // Of a board in simulation it says which core that has, as build_board.py knows it.
+  // For a board in simulation it says which core that has, as build_board.py knows it.
   Identity simulated;
   simulated.name = "FAKE";
   simulated.param_hash = 0x12345678;

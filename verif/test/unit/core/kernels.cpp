@@ -19,7 +19,7 @@
 namespace kage::verif {
 namespace {
 
-/// What took part in all frames.
+/// The errors and tokens of all frames.
 struct Taken {
   std::array<int, kErrorNames.size()> errors{};
   std::array<std::uint64_t, kKinds> tokens{};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What words mean: pixels of random frames, which no front end has made. A change of the front end leaves these
-// checksums alone and changes those of scene/builtin; a change of the core that gives known words other pixels changes
+// The meaning of words: pixels of random frames, which no front end has made. A change of the front end leaves these
+// checksums alone and changes those of scene/builtin. A change of the core that gives known words other pixels changes
 // these, and then the stream's version has to change.
 #include <fmt/format.h>
 

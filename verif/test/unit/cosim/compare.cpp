@@ -245,7 +245,7 @@ TEST_CASE("another initial state gets the first frame too, and what it has wrong
     CHECK(r.first_difference->x == 1);
     CHECK(r.first_difference->other_state);
     CHECK(describe(*r.first_difference).find("another initial state") != std::string::npos);
-    // What the run's own core has wrong comes before it.
+    // An error of the run's own core comes before it.
     actual.spoil_line = [](std::uint32_t frame, int y, Line& line) {
       if (frame == 1 && y == 2) line[0] ^= 1;
     };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The search for the first divergence: where RTL and golden model agree it finds none in any stage, whatever the
-// configuration, the frames and the stalls; where a defect is built in it names the module that has it.
+// The search for the first divergence. Where RTL and golden model agree it finds none in any stage, whatever the
+// configuration, the frames and the stalls. Where a defect is built in it names the module that has it.
 #include "cosim/diverge/divergence.hpp"
 
 #include <algorithm>
@@ -62,7 +62,7 @@ constexpr std::uint32_t bits(Stages... stages) {
   return ((1U << static_cast<int>(stages)) | ...);
 }
 
-// What is lost with each monitor that gives events (build.py finds it in the monitors' text).
+// The stages that are lost with each monitor that gives events (build.py finds it in the monitors' text).
 constexpr std::array kMonitors{
     bits(Stage::token, Stage::table, Stage::error, Stage::end),
     bits(Stage::line, Stage::command),

@@ -16,7 +16,7 @@ namespace kage::cosim {
 using Line = std::vector<std::uint8_t>;
 
 /// Makes a line of every word but the first two, which are the frame's number and size; the pattern depends on number,
-/// line and x. What it makes may be changed on its way out.
+/// line and x. Lines and a frame's end may be changed on their way out.
 class FakeCore : public Core {
  public:
   std::function<void(std::uint32_t frame, int y, Line&)> spoil_line;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a progress line says.
+// The text of a progress line.
 #include "cosim/session/frame_progress.hpp"
 #include "test/support/catch.hpp"
 

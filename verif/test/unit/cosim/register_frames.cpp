@@ -42,7 +42,7 @@ std::vector<SmallConfig> corners() {
   return all;
 }
 
-/// What has come with so many words of a frame: pixels of units, and lines.
+/// The output that the first `words` words of a frame have brought: pixels of units, and lines.
 class Given : public CoreObserver {
  public:
   Given(const Config& config, std::size_t words) : pixels(static_cast<std::size_t>(config.units)), left_(words) {}

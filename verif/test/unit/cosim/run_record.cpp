@@ -114,7 +114,7 @@ report::SceneRecord some_scene(const std::string& name) {
   return s;
 }
 
-/// What a shard that has no frame of it says.
+/// The record of a shard that has no frame of this scene.
 report::SceneRecord no_frames() {
   report::SceneRecord s;
   s.scene = "other";
@@ -246,7 +246,7 @@ TEST_CASE("what is not of its form is named by its place") {
   CHECK(refused(Json::array()) == "it is no object");
 }
 
-// What docs/schema/README.md promises of a schema's number.
+// The promise of docs/schema/README.md about a schema's number.
 TEST_CASE("a report of an earlier or a later kage is read as far as its keys go") {
   report::RunRecord record;
   record.scenes = {some_scene("courtyard")};

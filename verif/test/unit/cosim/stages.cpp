@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound RTL differs in no stage, in every named configuration and in twenty by chance, as kage cosim --stages holds it:
-// a monitor that fails sound RTL blames a module for what is another's, or for nothing.
+// Sound RTL differs in no stage, in every named configuration and in twenty by chance, as kage cosim --stages holds it.
+// A monitor that fails sound RTL would blame a module for the fault of another, or for none.
 #include <fmt/format.h>
 
 #include <algorithm>

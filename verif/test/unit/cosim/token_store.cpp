@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the report page has of a frame at the polygon level: the tokens of the span level, each with the index of the
-// stream's token that it comes of.
+// The report page's part of a frame at the polygon level: the tokens of the span level, each with the index of the
+// stream's token that it comes from.
 #include "cosim/report/token_store.hpp"
 
 #include <zlib.h>
@@ -24,7 +24,7 @@ using Words = std::vector<std::uint32_t>;
 /// A token as the page is to have it: the index of the stream's, whether it was made, its text.
 using Told = std::tuple<std::uint32_t, bool, std::string>;
 
-/// Those that the golden core sees.
+/// The tokens that the golden core sees.
 struct Observer : CoreObserver {
   explicit Observer(const Config& c) : config(c) {}
   void came(std::uint32_t, const Token&, std::span<const std::uint32_t> words) override { own = words.data(); }
@@ -86,7 +86,7 @@ TEST_CASE("of a frame at the polygon level the page has the spans, with the indi
           told.emplace_back(index & ~report::kMade, (index & report::kMade) != 0, to_string(c, t));
       }
     }
-    // What stays in the front end is counted by itself, and each of the rest in its phase.
+    // Tokens that stay in the front end are counted by themselves, and each of the rest in its phase.
     std::uint64_t stay = 0;
     for (TokenWalk walk(layout, words); !walk.peek().empty();) {
       const Kind kind = kind_of(walk.next()[0], Level::polygons);

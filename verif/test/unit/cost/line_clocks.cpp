@@ -17,10 +17,10 @@ namespace {
 
 using Lines = std::vector<std::uint64_t>;
 
-/// Whether a core that takes `frames` clocks for the lines of its frames is ready for each line of a display, `each`
-/// clocks a line and `blank` lines behind each frame, that begins as late as two line buffers let it: when both are
-/// full, or when there is no third line to work on. One buffer leaves, one waits, and a line can be handed to a buffer
-/// once that is free.
+/// Whether a core that takes `frames` clocks for the lines of its frames is ready for each line of a display. The
+/// display takes `each` clocks a line and `blank` lines behind each frame. It begins as late as two line buffers let
+/// it: when both are full, or when there is no third line to work on. One buffer leaves, one waits, and a line can be
+/// handed to a buffer once that is free.
 bool in_time(const std::vector<Lines>& frames, double each, int blank) {
   std::vector<double> gone;
   double core = 0;

@@ -159,7 +159,7 @@ TEST_CASE("a map of a point sums up to its row, and a source alone has a map of 
   CHECK(scene.error_of(0, coarse, ErrorSource::snapping)->visible_wrong > 0);
   CHECK(scene.error_of(0, coarse, ErrorSource::samples)->shadow_wrong > 0);
   CHECK_FALSE(scene.error_of(0, coarse, ErrorSource::order)->any());
-  // What is forgotten is made again, and is the same.
+  // A frame that is forgotten is made again, and is the same.
   scene.forget(0);
   CHECK(sum_of(error_map(scene, 0, coarse, drawn)).shadow_wrong == row.by_truth.shadow_wrong);
 }

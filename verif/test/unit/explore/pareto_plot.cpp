@@ -31,7 +31,7 @@ ParetoPlot plot_of(const std::vector<std::pair<double, std::optional<double>>>& 
   return plot;
 }
 
-/// What an edge of a text is, as far as its width goes.
+/// The edges of a text, as far as its estimated width goes.
 struct Box {
   double left, top, right, bottom;
 };

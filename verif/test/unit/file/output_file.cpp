@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is written in pieces of any size is in the file, in order: pieces that fill the buffer to its last byte too.
+// Bytes that are written in pieces of any size are in the file, in order: also when pieces fill the buffer to its
+// last byte.
 #include "file/output_file.hpp"
 
 #include <filesystem>

@@ -31,7 +31,7 @@ std::string said(const std::function<void()>& work) {
   return "done";
 }
 
-/// What takes the output's name while a run is under way, and whether it is still there.
+/// An intruder: it takes the output's name while a run is under way, and knows whether it is still there.
 struct Intruder {
   const char* name;
   std::function<void(const fs::path&)> come;

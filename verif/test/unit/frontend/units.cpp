@@ -57,7 +57,7 @@ int units_used(std::span<const UnitNeed> needs, std::span<const int> units) {
   return used;
 }
 
-/// What is wrong with an assignment, by painting every line and column of each unit; nothing if it is sound.
+/// The fault of an assignment, found by painting every line and column of each unit; nothing if it is sound.
 std::string fault(std::span<const UnitNeed> needs, std::span<const int> units, const UnitRoom& r) {
   std::vector<int> faces(static_cast<std::size_t>(r.units), 0);
   for (int u = 0; u < r.units; ++u)

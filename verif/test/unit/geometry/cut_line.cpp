@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The line on which one plane cuts another on the picture, against rational numbers: whatever the planes, each pixel
+// The line on which one plane cuts another on the picture, against rational numbers. Whatever the planes, each pixel
 // lies on the side that the exact line has it on, unless it lies within 2^-15 of a pixel of that line.
 #include <algorithm>
 #include <cmath>

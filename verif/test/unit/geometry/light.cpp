@@ -96,8 +96,8 @@ TEST_CASE("light points: the middle for one, else spread over the shape, by the 
   CHECK(light_points(Light{}, 255, 7).size() == 1);
 }
 
-// What the ball's samples rest on: of a density f(r) within the unit ball a line at distance s from the middle meets 2
-// x the integral of f(r) r / sqrt(r^2 - s^2) from s to 1. Of 1 / (pi^2 sqrt(1 - r^2)) that is 1 / pi for every s: a
+// The law behind the ball's samples: a density f(r) within the unit ball gives a line at distance s from the middle 2 x
+// the integral of f(r) r / sqrt(r^2 - s^2) from s to 1. For 1 / (pi^2 sqrt(1 - r^2)) that is 1 / pi for every s: a
 // disc.
 TEST_CASE("the density of a ball's samples is that of an even disc along every line, and adds up to 1") {
   constexpr int kSteps = 2000;

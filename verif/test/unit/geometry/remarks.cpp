@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is told of a picture: steps of depth that are long, things beyond the far plane, backs of faces.
+// The remarks on a picture: steps of depth that are long, things beyond the far plane, backs of faces.
 #include "geometry/remarks.hpp"
 
 #include <cmath>

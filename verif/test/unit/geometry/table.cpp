@@ -108,7 +108,8 @@ TEST_CASE("an entry is the mean by area over the faces of its class, however man
       }
       continue;
     }
-    // Of the class's own normal, and of all lights that reach one of its faces. Normals were halved so many times.
+    // Entries of the class's own normal, and of all lights that reach one of its faces. The number of normals may
+    // have been halved several times.
     bool right = false;
     for (int count = t.look.classes; !right; count /= 2) {
       const NormalClasses normals(std::max(count, 1));

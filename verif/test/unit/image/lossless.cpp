@@ -26,7 +26,7 @@ using Values = std::vector<std::uint16_t>;
 constexpr int kWidth = 8;
 constexpr int kHeight = 4;
 
-/// What the comparison of two files says: "same", "different", or the refusal.
+/// The verdict on two files: "same", "different", or the refusal.
 std::string said(const fs::path& a, const fs::path& b) {
   try {
     return diff_files(a, b).same ? "same" : "different";
@@ -409,7 +409,7 @@ std::string tiff(unsigned width, unsigned height, unsigned samples, unsigned pho
   entries[5].second = static_cast<unsigned>(8 + 2 + 12 * entries.size() + 4);
   std::string text = "II" + little(42, 2) + little(8, 4) + little(entries.size(), 2);
   for (const auto& [tag, value] : entries) {
-    // Of a value for each sample, as far as they go into an entry, all are the same.
+    // A tag with a value for each sample has equal values, as many as fit into an entry.
     const unsigned count = tag == 320 ? 3 * 256 : tag == 258 && samples == 2 ? 2 : 1;
     text += little(tag, 2) + little(tag == 330 ? 4 : 3, 2) + little(count, 4) +
             little(count == 2 ? value | value << 16U : value, 4);

@@ -16,7 +16,7 @@ std::string nested(std::size_t levels, const std::string& inner = "") {
   return std::string(levels, '[') + inner + std::string(levels, ']');
 }
 
-/// What the error says; "taken" if there is none.
+/// The text of the error; "taken" if there is none.
 std::string said(const std::function<void()>& parse) {
   try {
     parse();

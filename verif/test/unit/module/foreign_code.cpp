@@ -24,7 +24,7 @@ struct Ending {
   std::string said;
 };
 
-/// What comes of it in a process of its own, which tells as kage does.
+/// The end of the work in a process of its own, which reports errors as kage does.
 Ending ending_of(const std::function<void()>& work) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);

@@ -87,7 +87,7 @@ int differing_steps(const OrderTree& tree, Random& random, int steps, std::set<O
   return differing;
 }
 
-/// What order() must be for any eye: each node once.
+/// Whether an order has each node once, as that for any eye must.
 bool is_permutation(std::span<const std::uint32_t> order, std::uint32_t nodes) {
   std::vector<std::uint32_t> sorted(order.begin(), order.end());
   std::sort(sorted.begin(), sorted.end());

@@ -73,7 +73,7 @@ std::set<std::uint32_t> corners_of(const SceneFrame& f, const Component& c) {
   return out;
 }
 
-// Of a convex component.
+// Whether a point lies inside a convex component.
 bool inside(const SceneFrame& f, const Component& c, const glm::dvec3& p) {
   for (std::uint32_t t = c.first; t < c.first + c.count; ++t) {
     const auto& v = f.triangles[t].vertex;

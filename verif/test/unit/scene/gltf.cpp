@@ -288,7 +288,7 @@ TEST_CASE("lights: all of them, with cone, fall-off and shape, and one factor fo
              ContainsSubstring("none of disc, rectangle and sphere"));
   CHECK_THAT(refusal(R"({"type": "point", "extras": {"kage": {"shape": "sphere"}}})", node),
              ContainsSubstring("'radius' of a sphere"));
-  // What others keep in extras is nothing to kage.
+  // kage ignores the extras of other programs.
   CHECK(with(R"({"type": "point", "extras": "anything"})", node).frame(0, 1).lights.size() == 1);
 }
 

@@ -42,7 +42,7 @@ inline Json base() {
   return doc;
 }
 
-/// What loading gives: the notes, or one refusal; and a text of all that is drawn.
+/// The outcome of loading: the notes, or one refusal; and a text of all that is drawn.
 struct Outcome {
   std::vector<std::string> notes;
   std::string drawn;

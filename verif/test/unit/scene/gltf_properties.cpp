@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a glTF file has is drawn, or told in a note, or stands on the short list of what is silent on purpose: each
-// property of glTF 2.0, one by one.
+// Each property of glTF 2.0, one by one: kage draws it, or names it in a note, or it stands on the short list of
+// properties that are silent on purpose.
 #include "gltf_outcome.hpp"
 #include "test/support/catch.hpp"
 

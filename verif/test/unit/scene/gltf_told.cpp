@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys that nobody knows are named wherever they stand; what the format does not allow is told or refused; of what
-// changes how a triangle looks and whether a node is there, how much is drawn.
+// Keys that nobody knows are named wherever they stand; contents that the format does not allow are named or refused.
+// For a key that changes how a triangle looks or whether a node is there, the note says how much is drawn.
 #include "gltf_outcome.hpp"
 #include "test/support/catch.hpp"
 
@@ -216,7 +216,7 @@ TEST_CASE("types of numbers that the format does not have for what they are") {
         {"/animations/0/channels/0/target/path", "\"rotation\""}},
        true},
   });
-  // What is taken as normalized is drawn as what is.
+  // Values that are taken as normalized are drawn as those that are.
   std::string other = kBytes;
   other.insert(1, "\"normalized\": true, ");
   const Outcome normalized = test::outcome(test::changed(attribute(kColor, other.c_str())));

@@ -150,7 +150,7 @@ TEST_CASE("cameras and lights change from frame to frame") {
     REQUIRE(Scene::from(one).frame_count() == 1);
     REQUIRE((words(Scene::from(parts), i, 3) == words(Scene::from(one), i, 3)));
   }
-  // What is kept from frame to frame is not taken for another light's.
+  // Shadows that are kept from frame to frame are not taken for another light's.
   SceneFrames together(std::make_shared<const Scene>(Scene::from(parts)), load_config("full").config, small(3));
   for (const int i : {0, 1, 2, 0, 2, 1}) REQUIRE((together.words(i) == words(Scene::from(parts), i, 3)));
   parts.cameras.resize(1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What comes of a text or of bytes, read as a file of a plain format.
+// The outcome of reading a text or bytes as a file of a plain format.
 #pragma once
 
 #include <cmath>
@@ -29,7 +29,7 @@ class PlainFiles {
   [[nodiscard]] Scene load(const std::string& text) const { return Scene::load(write(text)); }
   [[nodiscard]] SceneFrame frame(const std::string& text) const { return load(text).frame(0, 1); }
 
-  /// What loading says behind the file's name, "loaded" if nothing.
+  /// The message of loading, behind the file's name; "loaded" if there is none.
   [[nodiscard]] std::string refusal(const std::string& text) const {
     const std::string file = write(text);
     const std::string message = test::refusal(file);

@@ -80,8 +80,8 @@ glm::dvec3 area(const std::vector<glm::dvec3>& points, const Outline& o) {
   return sum;
 }
 
-// What holds of every result: each edge belongs to exactly two polygons, in opposite directions; each polygon faces
-// away from `inside`, is convex, has the plane of its own largest triangle, and the areas add up to the triangles'.
+// Checks every result: each edge belongs to exactly two polygons, in opposite directions. Each polygon faces away from
+// `inside`, is convex, and has the plane of its own largest triangle. The areas add up to the triangles'.
 void check_surface(const std::vector<glm::dvec3>& points, const std::vector<Corners>& triangles, const Merged& m,
                    const glm::dvec3& inside, std::uint32_t first = 0) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;

@@ -41,7 +41,7 @@ class Folders {
 
   [[nodiscard]] fs::path path() const { return dir_.path(); }
 
-  /// What loading a glTF file says whose buffer is at `uri`; "loaded" if it reads.
+  /// The message of loading a glTF file whose buffer is at `uri`; "loaded" if it reads.
   [[nodiscard]] std::string gltf(const std::string& uri, bool allow_outside) const {
     std::string text = test::triangle_gltf(R"("nodes": [{"mesh": 0}])");
     const std::size_t first = text.find("data:application");
@@ -146,8 +146,8 @@ TEST_CASE("other formats: an OBJ file's materials and what Assimp opens are conf
     CHECK(message.find("lies outside the file's folder; --allow-outside reads it") != std::string::npos);
     CHECK(message.find(name) != std::string::npos);
   }
-  // Of an absolute name the last part is looked for in an OBJ file's folder first; that of a LightWave scene Assimp
-  // opens as it is.
+  // For an absolute name, its last part is looked for in an OBJ file's folder first. In a LightWave scene, Assimp opens
+  // the name as it is.
   const std::string away = (f.path() / "away/look.mtl").string();
   CHECK(f.obj(away, false) == "loaded");
   CHECK(f.red() == 0.25);

@@ -36,7 +36,7 @@ TEST_CASE("the bound on caps that light meets is never below the exact number, a
     // Edges that ought to touch may overlap by the rounding of light space.
     if (!coarse) CHECK(r.low <= exact);
     ++above_by[static_cast<std::size_t>(std::clamp(r.high - exact, 0, 7))];
-    // What a target asks for is answered, whichever way.
+    // A bound for a target answers whether the target is met, by whichever way.
     for (const int target : {0, 1, 3}) {
       const CountRange told = bound(c, target);
       CHECK(told.high >= exact);

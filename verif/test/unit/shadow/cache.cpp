@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is kept of shadow volumes changes no frame, however eye, lights and casters move; and it saves the work.
+// Shadow volumes that are kept change no frame, however eye, lights and casters move; and they save the work.
 #include <algorithm>
 
 #include "kage/error.hpp"

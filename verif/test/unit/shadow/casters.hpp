@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What casts in the tests of shadow/, and how many faces a ray of light meets at most where the light is straight
+// The casters of the tests of shadow/, and how many faces a ray of light meets at most where the light is straight
 // above.
 #pragma once
 
@@ -44,7 +44,8 @@ inline Caster caster_of(const Solid& s, const LightPoint& light) {
   return c;
 }
 
-/// Of `caps`, in the plane that the caster's light sees, which shines straight down, from infinity or from the origin.
+/// The most of `caps` that one ray meets, exactly, in the plane that the caster's light sees. The light shines
+/// straight down, from infinity or from the origin.
 inline int exact_from_above(const Caster& c, std::span<const CapFace> caps) {
   std::vector<ExactPolygon> triangles;
   for (const CapFace& cap : caps) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The visibility order's vector kernels, each alone: every instruction set, trees of 0 to 48 nodes and some larger, in
-// guarded memory of exactly the size that the kernels' headers ask for, against the same node by node.
+// The visibility order's vector kernels, each alone, against the same computed node by node. Every instruction set
+// takes trees of 0 to 48 nodes and some larger, in guarded memory of exactly the size that the kernels' headers ask
+// for.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -115,7 +116,7 @@ void check_sides(Random& random, int nodes, Edge edge, bool some) {
                      flipped.begin()));
 }
 
-/// What the kernels of placing.hpp work on, each array as long as it has to be.
+/// The arrays that the kernels of placing.hpp work on, each as long as it has to be.
 class PlacingCase {
  public:
   PlacingCase(const order::TreeData& data, Edge edge)

@@ -36,7 +36,7 @@ std::vector<SmallConfig> configurations() {
   };
 }
 
-/// What a frame reaches, as "group: name".
+/// The coverage that a frame reaches, as "group: name".
 std::set<std::string> reached(const Config& c, const Words& words) {
   Coverage coverage(c);
   constexpr std::uint64_t kTimes = 3;
@@ -230,8 +230,8 @@ TEST_CASE("a random frame follows from configuration, manner, seed and number al
       seen.insert(sound);
       seen.insert(wrong);
     }
-    // Of small frames some are alike, and damage may be survived: with each of 200 seeds 194 and more were unlike, and
-    // 70 and more of 100 were errors.
+    // Some small frames are alike, and damage may be survived: with each of 200 seeds 194 and more were unlike, and 70
+    // and more of 100 were errors.
     CHECK(seen.size() > 180);
     CHECK(errors > 50);
   }
