@@ -23,7 +23,6 @@ install(DIRECTORY verif/cosim/model/cells verif/cosim/model/driver verif/cosim/m
 install(DIRECTORY constraints/boards DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)
 install(FILES constraints/figures.json DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)
 install(DIRECTORY verif/board/sim DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/board USE_SOURCE_PERMISSIONS)
-install(FILES verif/test/formal/sdram_rules.sv DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/test/formal)
 install(DIRECTORY verif/vectors/bench DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/vectors)
 install(DIRECTORY verif/cosim/diverge/monitors DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/diverge)
 
@@ -33,7 +32,6 @@ install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN "__pycache__" EXCLUDE)
 install(FILES python/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/python)
-install(DIRECTORY verif/test/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/verif/test PATTERN "*.sh" EXCLUDE)
 
 # For builds without CMake: pkg-config --cflags --libs kage. The static libraries ask for what they are linked with.
 if(IS_ABSOLUTE "${CMAKE_INSTALL_LIBDIR}")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The rooms of the source tree, and which of them may include which (docs/architecture.md, "Layers"). The test contract/layers
-holds every include to this table. By the same table tools/selection.py finds the tests that a change concerns."""
+holds every include to this table, and CMake lists and Python imports. By the same table tools/selection.py finds the tests
+that a change concerns."""
 
 import posixpath
 import re
@@ -82,6 +83,69 @@ ABOVE = {
     "cli": ["cli", "explore", "board", "vectors", "regress", "session", "report", "cosim", "stimulus", *MODEL],
 }
 
+# The products: all that is installed, and all that an installed kage is made of. Lists install nothing else, but for pages at
+# the top.
+PRODUCTS = (
+    "cli",
+    "cmake",
+    "constraints",
+    "docs",
+    "examples",
+    "python",
+    "ref",
+    "rtl",
+    "scenes",
+    "verif/board",
+    "verif/cosim",
+    "verif/explore",
+    "verif/oracle",
+    "verif/stimulus",
+    "verif/vectors",
+)
+# Rooms that judge, try and measure the products. No CMake list of a product's room names a file of it, and no Python file of a product.
+# (sources.yaml of verif/cosim/model/driver does: models with mutants are built in a source tree only.)
+JUDGES = ("verif/bench", "verif/extremes", "verif/fuzz", "verif/mutants", "verif/test")
+
+# Folders of Python files, each with those that its files may import from, beside itself; a folder stands for all below it.
+IMPORTS = {
+    "examples": ["python"],
+    "hls/tool": ["tools/fpga_flow"],
+    "python": [],
+    "scenes/maker": [],
+    "tools": [],
+    "tools/fpga_flow": ["python", "tools"],
+    "tools/gen_defs": ["tools/fpga_flow"],
+    "verif/board/sim": [],
+    "verif/cosim/model/driver": [],
+    "verif/test": ["hls/tool", "python", "tools"],
+}
+
+# Exemptions: a CMake list, a room that its own may not include, and why it has files of it.
+EXEMPT = {
+    ("ref/CMakeLists.txt", "explore"): "a checksum of what modules and their callers take a table to be",
+    ("verif/cosim/CMakeLists.txt", "session"): "a checksum of all that judges, by which verdicts are kept",
+    ("verif/test/CMakeLists.txt", "mutants"): "all headers in one unit",
+    ("verif/test/CMakeLists.txt", "cli"): "all headers in one unit",
+}
+
+# Functions and classes of the golden model that make what oracles judge. The oracles of DRAWING call one: they draw, and then
+# judge it.
+DRAWS = (
+    "GoldenCore",
+    "Renderer",
+    "SceneFrames",
+    "attenuation",
+    "check_frame",
+    "decode",
+    "explain_pixel",
+    "light_points",
+    "make_frame",
+    "make_geometry",
+    "make_order",
+    "received",
+)
+DRAWING = ("verif/oracle/face_pixels.hpp", "verif/oracle/judge.hpp", "verif/oracle/ray_truth.hpp")
+
 ROOTS = (
     "ref",
     "ref/include",
@@ -93,6 +157,11 @@ ROOTS = (
 
 def at_or_below(folder):
     return {folder}.union(*(at_or_below(f) for f in BELOW.get(folder, [])))
+
+
+def is_below(path, folders):
+    """Whether a path is one of the folders, or below one."""
+    return any(path == folder or path.startswith(folder + "/") for folder in folders)
 
 
 def place(path):

@@ -15,6 +15,7 @@ import yaml
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent))  # python3 hls/tool knows no package of its own
 
+from tool.configurations import configurations
 from tool.delays import Delays
 from tool.graph import Graph
 from tool.llvm_ir import CLANG_MAJOR, Port, Reader
@@ -86,18 +87,6 @@ def module(text: str, function: str, name: str, entry: dict, delays: Delays, sta
     else:
         head += ["// No clock: outputs follow from inputs alone."]
     return Emitter(name, graph, schedule, ports, head).text()
-
-
-def configurations(names: list[str]) -> dict[str, dict[str, int]]:
-    """The named configurations, as far as these parameters go: the first of those that have them alike."""
-    definition = yaml.safe_load((TOP / "rtl/defs/kage.yaml").read_text())
-    defaults = {p["name"]: p["default"] for p in definition["pixel_params"]}
-    found: dict[str, dict[str, int]] = {}
-    for config, given in yaml.safe_load((TOP / "rtl/defs/configs.yaml").read_text()).items():
-        values = {name: (given or {}).get(name, defaults[name]) for name in names}
-        if values not in found.values():
-            found[config] = values
-    return found
 
 
 def delays_of(device: str) -> Delays:

@@ -15,6 +15,7 @@ import sys
 import tempfile
 from dataclasses import dataclass, field
 
+from .configurations import configurations
 from .mutate import Module, Mutant
 from .trouble import Trouble
 
@@ -63,7 +64,7 @@ class Vectors:
             HARNESS,
             BENCH,
             *sorted((TOP / "rtl/include").rglob("*.svh")),
-            *sorted((TOP / "verif/test/rtl").glob("*.hpp")),
+            *sorted((TOP / "verif/test/rtl").rglob("*.hpp")),
             *sorted((TOP / "hls/kernels").glob("*.hpp")),
         ]
         self._key = versions + "".join(
@@ -89,8 +90,6 @@ class Vectors:
             ports = "".join(part.capitalize() for part in module.name.removeprefix("hls_").split("_")) + "Ports"
             stages = re.search(r"^// Latency: (\d+) clock", "\n".join(module.lines), re.M)[1]
             return ["--top-module", module.name], [f"-DPORTS={ports}", f"-DSTAGES={stages}"]
-        from .__main__ import configurations
-
         frac = configurations(["SHADE_FRAC"])[module.name.removeprefix(BLEND)]["SHADE_FRAC"]
         way = ["--top-module", BENCH.stem, f"-DKERNEL={module.name}", "-DMUTANTS", f"-I{TOP}/rtl/include", BENCH]
         return [*way, f"-GSHADE_FRAC={frac}", "-GTRANSLUCENCY=1", "-GCHANNELS=1"], [f"-DBLEND_FRAC={frac}"]

@@ -13,9 +13,9 @@
 #include <utility>
 
 #include "contract/config_text.hpp"
+#include "generated/golden_names.hpp"
 #include "golden_core.hpp"
 #include "golden_fields.hpp"
-#include "golden_names.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"
 #include "kage/error.hpp"

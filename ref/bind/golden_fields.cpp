@@ -5,7 +5,7 @@
 
 #include "contract/derived.hpp"
 #include "contract/fields.hpp"
-#include "golden_names.hpp"
+#include "generated/golden_names.hpp"
 #include "kage/golden.h"
 
 long long token_field(const kage::Config& config, const kage::Layout& layout, const kage::Token& t, int field) {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "cost/clock_phases.hpp"
+#include "cost/generated/clock_phases.hpp"
 #include "kage/stream.hpp"
 
 namespace kage {

@@ -61,7 +61,7 @@ OF_TEMPLATES = (
     "ref/contract/kinds.hpp",
     "ref/contract/order.hpp",
     "ref/contract/token_text.hpp",
-    "ref/bind/golden_names.hpp",
+    "ref/bind/generated/golden_names.hpp",
     "python/kage/golden_numbers.py",
     "python/kage/stream.py",
     "ref/include/kage/golden_numbers.h",
@@ -70,7 +70,7 @@ OF_TEMPLATES = (
     "rtl/include/generated/kage_order.svh",
     "rtl/kage_axi.v",
     "verif/cosim/report/page/stream.js",
-    "verif/test/rtl/buses.hpp",
+    "verif/test/rtl/generated/buses.hpp",
 )
 
 
@@ -99,7 +99,7 @@ def of_definition(defs):
         "rtl/include/generated/kage_registers.svh": registers.registers_svh(defs),
         "rtl/include/generated/kage_widths.svh": sv_widths.widths(defs),
         "rtl/kage.f": file_list(),
-        "ref/cost/clock_phases.hpp": cpp_clock_phases.clock_phases(defs),
+        "ref/cost/generated/clock_phases.hpp": cpp_clock_phases.clock_phases(defs),
     }
 
 
@@ -117,7 +117,7 @@ def of_board(board):
     """The files that rtl/defs/board.yaml makes."""
     return {
         "rtl/board/include/board_registers.svh": registers.board_svh(board),
-        "verif/board/board_registers.h": registers.board_h(board),
+        "verif/board/generated/board_registers.h": registers.board_h(board),
     }
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""ref/cost/clock_phases.hpp: what the clocks of a frame are counted under."""
+"""ref/cost/generated/clock_phases.hpp: what the clocks of a frame are counted under."""
 
 from files import NOTE
 

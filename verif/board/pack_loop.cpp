@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "board/board_registers.h"
+#include "board/generated/board_registers.h"
 #include "board/pack_play.hpp"
 
 namespace kage::board {

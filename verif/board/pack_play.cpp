@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "board/board_registers.h"
+#include "board/generated/board_registers.h"
 #include "kage/error.hpp"
 
 namespace kage::board {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "board/board_registers.h"
+#include "board/generated/board_registers.h"
 #include "board/pack_play.hpp"
 #include "kage/error.hpp"
 

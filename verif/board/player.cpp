@@ -8,7 +8,7 @@
 #include <array>
 #include <utility>
 
-#include "board/board_registers.h"
+#include "board/generated/board_registers.h"
 #include "kage/defs.hpp"
 #include "kage/error.hpp"
 

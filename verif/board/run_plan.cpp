@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "board/board_registers.h"
 #include "board/connection.hpp"
+#include "board/generated/board_registers.h"
 #include "board/sim_board.hpp"
 #include "kage/config.hpp"
 #include "kage/core.hpp"

@@ -42,7 +42,6 @@ PATTERNS = (
     "rtl/board/**/*.sv*",
     "constraints/boards/**/*.sv",
     "constraints/boards/boards.yaml",
-    "verif/test/formal/sdram_rules.sv",
     f"{HERE}/*",
 )
 
@@ -112,7 +111,7 @@ def build(work, name, board, fault, verilator, cxx, partial):
     ]
     command += ["--prefix", "Vboard", "--top-module", "board_sim", "--Mdir", work / "obj", "-O3"]
     command += [f"-I{tree}/{folder}" for folder in ("rtl/include", "rtl/board/include")]
-    for folder in ("rtl", "rtl/board", BOARDS / board["top"], BOARDS / "sim", "verif/test/formal"):
+    for folder in ("rtl", "rtl/board", BOARDS / board["top"], BOARDS / "sim"):
         command += ["-y", tree / folder]
     command += [f"-G{n}={v}" for n, v in parameters.items()] + ["-CFLAGS", flags, "-LDFLAGS", "-shared", "-o", partial]
     command += [

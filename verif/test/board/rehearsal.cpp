@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "board/board_registers.h"
+#include "board/generated/board_registers.h"
 #include "board/link.hpp"
 #include "board/pack_answers.hpp"
 #include "board/pack_run.hpp"

@@ -6,7 +6,7 @@
 library=$3
 flags=("${@:4}")
 
-cc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror "${flags[@]}" -I"$source/ref/include" "$source"/verif/test/examples/c/*.c \
+cc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror "${flags[@]}" -I"$source/ref/include" "$source"/examples/c/*.c \
   -L"$library" -lkage_golden -Wl,-rpath,"$library" -o pixel_check || { fail "the example does not build"; done_testing; }
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config default --out courtyard.kage
 expect 0 ./pixel_check courtyard.kage

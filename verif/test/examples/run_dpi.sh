@@ -7,7 +7,7 @@ library=$3
 flags="-L$library -lkage_golden -Wl,-rpath,$library ${*:4}"
 ulimit -c 0 # $fatal aborts
 
-verilator --binary --timing -Wall --top-module pixel_bench -I"$source/ref/include" "$source"/verif/test/examples/dpi/*.sv -LDFLAGS "$flags" >build.log 2>&1 ||
+verilator --binary --timing -Wall --top-module pixel_bench -I"$source/ref/include" "$source"/examples/dpi/*.sv -LDFLAGS "$flags" >build.log 2>&1 ||
   { fail "the example does not build"; tail -n 20 build.log; done_testing; }
 bench=obj_dir/Vpixel_bench
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config default --out courtyard.kage

@@ -4,7 +4,7 @@
 #
 # proof NAME KEY=VALUE...
 #   module          whose proof it is; NAME if left out. The proof is verif/test/formal/MODULE_proof.sv
-#   rtl, rules      files of rtl/ and of verif/test/formal that it is made of
+#   rtl, rules      files of rtl/, and of verif/test/formal or constraints/boards/sim, that it is made of
 #   set             PARAMETER=VALUE... of the proof
 #   inside          WIRE=NET...: wires of the proof that are nets within the module (dut), for induction
 #   clocks          several: each is free; one if left out

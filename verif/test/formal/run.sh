@@ -58,7 +58,9 @@ translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, wi
   # Headers include each other by where they lie: one that is changed has all others beside it.
   if [[ $changed == include/* ]]; then headers=$work/include; fi
   [[ -z $changed || $changed == include/* || " ${rtl[*]} " == *" $work/$changed "* ]] || { echo "run.sh: $name: $proof reads no $changed" >&2; exit 2; }
-  for word in ${of[$proof.rules]} "$top"; do own+=("$here/$word.sv"); done
+  for word in ${of[$proof.rules]} "$top"; do
+    if [ -e "$here/$word.sv" ]; then own+=("$here/$word.sv"); else own+=("constraints/boards/sim/$word.sv"); fi
+  done
   [ "${of[$proof.clocks]}" = one ] || clocks="clk2fflogic;"
   script="read_verilog -sv ${of[$proof.own_assertions]:+-formal} -I$headers ${rtl[*]}; "
   script+="read_verilog -sv -formal -I$headers ${own[*]}; "

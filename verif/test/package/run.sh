@@ -39,7 +39,7 @@ while IFS=: read -r page link; do
   links=$((links + 1))
 done < <(grep -roE '\]\([A-Za-z][A-Za-z0-9_./-]*' --include=*.md "$doc" | sed 's/:\](/:/' | grep -vE ':(https?|int)$')
 [ $links -gt 60 ] || { echo "installed pages have only $links links" >&2; exit 1; }
-for file in man/man1/kage.1 bash-completion/completions/kage zsh/site-functions/_kage doc/kage/verif/test/examples/c/pixel_check.c; do
+for file in man/man1/kage.1 bash-completion/completions/kage zsh/site-functions/_kage doc/kage/examples/c/pixel_check.c; do
   [ -s "$temp/prefix/share/$file" ] || { echo "not installed: share/$file" >&2; exit 1; }
 done
 # Without CMake: pkg-config knows what to compile and link with.

@@ -9,8 +9,8 @@
 #include <random>
 #include <vector>
 
-#include "buses.hpp"
 #include "drive.hpp"
+#include "generated/buses.hpp"
 #include "given.hpp"
 #include "test/support/catch.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// board_registers against a model by the addresses that the host has (verif/board/board_registers.h): every register
-// and window, the way to the core's registers, and AXI4-Lite with a host and a core that stall.
-#include "board/board_registers.h"
+// board_registers against a model by the addresses that the host has (verif/board/generated/board_registers.h): every
+// register and window, the way to the core's registers, and AXI4-Lite with a host and a core that stall.
+#include "board/generated/board_registers.h"
 
 #include <array>
 #include <optional>

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "board/board_registers.h"
+#include "board/generated/board_registers.h"
 #include "board/link_frame.hpp"
 #include "board/transport.hpp"
 #include "kage/core.hpp"

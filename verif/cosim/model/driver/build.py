@@ -36,10 +36,10 @@ import tempfile
 
 import netlist
 import ports
-import yaml
 from initial_state import name_initial_state
 from monitors import MONITORS, leave_out, unwatched
 from mutants import put_in
+from parameters import parameters, pixel_parameters
 from ports import write_monitor
 from runtime import Runtime
 from sources import HERE, PATTERNS, RTL, TOP, files, only, places
@@ -47,7 +47,6 @@ from steps import Log, end_all, fail, run, without_blanks
 
 FROM_VERILATOR = HERE / "from_verilator.hpp"
 FAULTS = only("fault").parent
-DEFS = only("parameters")
 # Flags with which every part is compiled. Text that the RTL writes goes through the driver. The header is copied, so
 # that these flags are the same in every source tree.
 CFLAGS = f"-fPIC -fvisibility=hidden -DVL_USER_STOP -DVL_PRINTF=kage_printf -include {FROM_VERILATOR.name}"
@@ -57,24 +56,6 @@ OF_GNU = " -fno-gnu-unique"
 # no model is built with them.
 UNASKED = "CXXFLAGS CPPFLAGS CFLAGS LDFLAGS LDLIBS OPT OPT_FAST OPT_SLOW OPT_GLOBAL USER_CPPFLAGS USER_LDFLAGS USER_LDLIBS MAKEFLAGS MFLAGS"
 PARTS = ("monitors", "waves", "mutants", "lines")  # options that a model is built with
-
-
-def parameters(arguments):
-    defs = yaml.safe_load(DEFS.read_text())
-    values = {p["name"]: p["default"] for p in defs["pixel_params"] + defs["impl_params"]}
-    for argument in arguments:
-        name, equals, value = argument.partition("=")
-        if not equals or name not in values:
-            fail(f"{argument}: not PARAM=VALUE with a parameter of {DEFS}")
-        try:
-            values[name] = int(value, 0)
-        except ValueError:
-            fail(f"{argument}: {value} is not a whole number")
-    return values
-
-
-def pixel_parameters():
-    return [p["name"] for p in yaml.safe_load(DEFS.read_text())["pixel_params"]]
 
 
 def main():

@@ -12,12 +12,14 @@ The RTL is that of this source tree or of $KAGE_RTL_DIR; $YOSYS names another yo
 are in verif/cosim/model/cells. On failure: one line, exit status 2.
 """
 
+import argparse
 import os
 import pathlib
 import shlex
 import tempfile
 
 import sources
+from parameters import parameters
 from steps import Log, fail, run
 
 FAMILIES = ("ice40", "ecp5")
@@ -51,10 +53,6 @@ def wrapper(out, rtl, inner):
 
 
 def main():
-    import argparse
-
-    from build import parameters
-
     parser = argparse.ArgumentParser(usage=__doc__.split("usage: ")[1].split("\n")[0])
     parser.add_argument("family", choices=FAMILIES)
     parser.add_argument("out")

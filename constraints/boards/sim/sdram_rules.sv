@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The rules by which an SDR SDRAM takes its commands (JEDEC's, with the numbers of the data sheet as parameters, in
 // clocks): the one definition of them. A proof puts it on the pins of a controller (sdram_controller_proof); the
-// behavioural chip (constraints/boards/sim/sdram_chip.sv) has it inside, where a broken rule stops the simulation with
-// its name, the time and the bank.
+// behavioural chip (sdram_chip.sv beside it) has it inside, where a broken rule stops the simulation with its name, the
+// time and the bank.
 //
 //   enabled     the chip's clock is never suspended: cke is high.
 //   known       no burst stop, and no auto precharge (A10 low in reads and writes): neither is told of here.
