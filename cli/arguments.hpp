@@ -45,7 +45,7 @@ struct CommandWords {
   std::vector<OptionWords> options;
 };
 
-/// What an option's value must be.
+/// A condition on an option's value.
 struct Check {
   std::function<std::string(const std::string&)> fault;  ///< one line on a wrong value; empty for a right one
   std::string shown{};                                   ///< the values that it allows, for help: "{ice40,ecp5}"
@@ -80,7 +80,7 @@ class Option {
   Option in_order_of_parsing();  ///< a flag's function is called as the flag is read
   Option hidden();               ///< help leaves it out
 
-  // What was given.
+  // Its place in the command line that was given.
   std::size_t count() const;
   std::vector<std::string> values() const;
   std::string name() const;       ///< "--size", "SCENE"
