@@ -8,14 +8,14 @@
 namespace kage::cli {
 namespace {
 
-struct Group {
+struct HelpGroup {
   std::string_view name;
   std::initializer_list<std::string_view> options;
 };
 
 constexpr std::string_view kRest = "Options";
 
-const Group kGroups[] = {
+const HelpGroup kGroups[] = {
     {"Input",
      {"--allow-outside", "--module", "--sound-only", "--tokens", "--pixel", "--frame", "--port", "--baud", "--exclude",
       "--mask"}},
@@ -44,7 +44,7 @@ const Group kGroups[] = {
 }  // namespace
 
 std::string help_group(const std::string& option) {
-  for (const Group& group : kGroups)
+  for (const HelpGroup& group : kGroups)
     if (std::find(group.options.begin(), group.options.end(), option) != group.options.end())
       return std::string(group.name);
   return std::string(kRest);
@@ -53,7 +53,7 @@ std::string help_group(const std::string& option) {
 const std::vector<std::string>& help_groups() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Group& group : kGroups) all.emplace_back(group.name);
+    for (const HelpGroup& group : kGroups) all.emplace_back(group.name);
     all.emplace_back(kRest);
     return all;
   }();

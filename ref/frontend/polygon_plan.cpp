@@ -128,11 +128,11 @@ PolygonWay PolygonPlan::choice(const Config& config, const Prices& prices, std::
 
 namespace {
 
-int length(const LineRange& r) { return r.end - r.first; }
+int pixels_in(const LineRange& r) { return r.end - r.first; }
 
 LineRange hull(const LineRange& a, const LineRange& b) {
-  if (length(a) == 0) return b;
-  if (length(b) == 0) return a;
+  if (pixels_in(a) == 0) return b;
+  if (pixels_in(b) == 0) return a;
   return {std::min(a.first, b.first), std::max(a.end, b.end)};
 }
 
@@ -258,7 +258,7 @@ void PolygonPlan::join_spans(const Config& config) {
       for (std::size_t k = i + 1; k < end && ways_[k] != PolygonWay::polygon; ++k)
         if (ways_[k] != kUnseen) behind = hull(behind, {shapes_[polygon_of(k)].first, shapes_[polygon_of(k)].last + 1});
       const LineRange all = hull(hull(before, here), behind);
-      const int ats = std::min(length(all) - length(before) - length(behind), s.lines());
+      const int ats = std::min(pixels_in(all) - pixels_in(before) - pixels_in(behind), s.lines());
       const bool joins = prices.saved(g_->polygons[polygon_of(i)], s, span_of(i), ats) <= 0;
       if (joins) ways_[i] = PolygonWay::words;
       before = joins ? hull(before, here) : LineRange{};

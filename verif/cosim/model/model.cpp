@@ -168,9 +168,9 @@ std::vector<std::string> build_command(const fs::path& work, const Config& confi
 }
 
 /// Tells the progress while a model is being built, or waited for.
-class Waiting {
+class BuildWait {
  public:
-  explicit Waiting(const BuildProgress& progress) : progress_(progress) {}
+  explicit BuildWait(const BuildProgress& progress) : progress_(progress) {}
 
   [[nodiscard]] double seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
@@ -187,12 +187,12 @@ class Waiting {
 
 /// Builds work/model.so.
 void build(const fs::path& work, const fs::path& data, const Config& config, const ModelOptions& options,
-           const Waiting& waiting, const fs::path& log) {
+           const BuildWait& patience, const fs::path& log) {
   fs::create_directory(work / "tmp");  // the compilers' temporary files go with the rest if they are killed
   if (options.progress) options.progress(0);
   Process process(build_command(work, config, options));
   bool ok = false;
-  while (!process.ended(ok)) waiting.wait();
+  while (!process.ended(ok)) patience.wait();
   if (!ok || !fs::exists(work / "model.so")) refuse_build(work, data, process.said(), log);
 }
 
@@ -223,13 +223,13 @@ Model find_model(const Config& config, const ModelOptions& options) {
   copy_sources(data, sources.files, work / "source");
   const ModelTools tools = model_tool_versions(options, true);
   const std::string key = model_key(work / "source", sources, config, options, tools);
-  const Waiting waiting(options.progress);
+  const BuildWait patience(options.progress);
   Lock lock(cache.lock(key), O_RDWR | O_CREAT | O_NOFOLLOW);
-  while (!lock.try_lock()) waiting.wait();
+  while (!lock.try_lock()) patience.wait();
   if (find(key)) return {.library = cache.library(key)};  // another program has built it
-  build(work, data, config, options, waiting, cache.log(key));
+  build(work, data, config, options, patience, cache.log(key));
   cache.keep(key, work / "model.so", about(config, options, tools));
-  return {.library = cache.library(key), .build_seconds = waiting.seconds(), .damage = damage};
+  return {.library = cache.library(key), .build_seconds = patience.seconds(), .damage = damage};
 }
 
 bool has_model(const Config& config, const ModelOptions& options) {
