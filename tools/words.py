@@ -23,7 +23,7 @@ NO_NOUN = re.compile(
 END = re.compile(r"(?<=[.!?])[\"')*_]*\s+(?=[\"'(*_`\[]*[A-Z0-9`])")
 ENTRY = re.compile(END.pattern + r"|;\s+")
 # A list's entry, a name with its meaning in the next column, or a field for Doxygen: it begins a paragraph of its own.
-BULLET = re.compile(r"([*+-]|\d+[.)]|@\w+(\[\w+\])?( \w+)?)\s+|[^\s,]+(, [^\s,]+){0,5},?\s{2,}")
+BULLET = re.compile(r"([*+-]|\d+[.)]|@\w+(\[\w+\])?( \w+)?)\s+|[^\s,]+( [A-Z]+)?(, [^\s,]+){0,5},?\s{2,}")
 
 
 def plain(text):
