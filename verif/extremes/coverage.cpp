@@ -15,8 +15,8 @@
 namespace kage::verif {
 namespace {
 
-constexpr int kWidth = 80;
-constexpr int kHeight = 60;
+constexpr int kCoverWidth = 80;
+constexpr int kCoverHeight = 60;
 constexpr int kLimit = kGuard * 256;
 
 /// A triangle in triangles that share the points, each point in the triangle that holds it.
@@ -40,17 +40,17 @@ void strew(std::vector<Outline>& t, const std::vector<NearPoint>& points) {
 }  // namespace
 
 void NearPoint::fields(Fields& f) {
-  f.number("x", x, -5000, kWidth * 256 + 5000);
-  f.number("y", y, -5000, kHeight * 256 + 5000);
+  f.number("x", x, -5000, kCoverWidth * 256 + 5000);
+  f.number("y", y, -5000, kCoverHeight * 256 + 5000);
 }
 
 // ---- 1
 
 void TriangulationCase::fields(Fields& f) {
-  f.number("x0", x0, -5000, std::int64_t{256} * kWidth);
-  f.number("y0", y0, -5000, std::int64_t{256} * kHeight);
-  f.number("width", width, 1, kWidth * 256 + 10'000, 256);
-  f.number("height", height, 1, kHeight * 256 + 10'000, 256);
+  f.number("x0", x0, -5000, std::int64_t{256} * kCoverWidth);
+  f.number("y0", y0, -5000, std::int64_t{256} * kCoverHeight);
+  f.number("width", width, 1, kCoverWidth * 256 + 10'000, 256);
+  f.number("height", height, 1, kCoverHeight * 256 + 10'000, 256);
   f.list("point", points, 0, 400);
 }
 
@@ -65,7 +65,7 @@ Outcome TriangulationCase::check(const Context& context) const {
   for (std::size_t i = 0; i < strewn.size(); i += 2)
     strewn[i].x = (strewn[i].x & ~255) + 128, strewn[i].y = (strewn[i].y & ~255) + 128;
   strew(parts, strewn);
-  return parts_are_whole(parts, {a, b, c, d}, kWidth, kHeight, context);
+  return parts_are_whole(parts, {a, b, c, d}, kCoverWidth, kCoverHeight, context);
 }
 
 // ---- 2
@@ -80,7 +80,7 @@ Outcome VertexOrderCase::check(const Context& context) const {
   Outline o{a.at(), b.at(), c.at()};
   Outcome out;
   for (int turn = 0; turn < 6; ++turn) {
-    out.add(covers_what_the_oracle_says(o, kWidth, kHeight, context));
+    out.add(covers_what_the_oracle_says(o, kCoverWidth, kCoverHeight, context));
     std::rotate(o.begin(), o.begin() + 1, o.end());
     if (turn == 2) std::reverse(o.begin(), o.end());
   }
@@ -107,7 +107,7 @@ Outcome QuadCase::check(const Context& context) const {
   for (const auto& [first, second] : {std::pair<Outline, Outline>{{p, q, r}, {p, r, s}}, {{p, q, s}, {q, r, s}}}) {
     // A diagonal outside a quadrilateral that is not convex turns one half over.
     if ((area2(first[0], first[1], first[2]) > 0) != (area2(second[0], second[1], second[2]) > 0)) continue;
-    o.add(parts_are_whole({first, second}, {p, q, r, s}, kWidth, kHeight, context));
+    o.add(parts_are_whole({first, second}, {p, q, r, s}, kCoverWidth, kCoverHeight, context));
   }
   return o;
 }
@@ -115,8 +115,8 @@ Outcome QuadCase::check(const Context& context) const {
 // ---- 4
 
 void CentresCase::fields(Fields& f) {
-  f.number("x", x, 0, kWidth - 1, 40);
-  f.number("y", y, 0, kHeight - 1, 30);
+  f.number("x", x, 0, kCoverWidth - 1, 40);
+  f.number("y", y, 0, kCoverHeight - 1, 30);
   f.number("r", r, 1, 40);
   f.number("p", p, -r, r);
   f.flag("down", down);
@@ -131,11 +131,13 @@ Outcome CentresCase::check(const Context& context) const {
   if (down) {
     const ScreenVertex top{m.x - p * 256, m.y - r * 256};
     const ScreenVertex bottom{m.x + p * 256, m.y + r * 256};
-    return parts_are_whole({{nw, sw, bottom, top}, {top, bottom, se, ne}}, {nw, sw, se, ne}, kWidth, kHeight, context);
+    return parts_are_whole({{nw, sw, bottom, top}, {top, bottom, se, ne}}, {nw, sw, se, ne}, kCoverWidth, kCoverHeight,
+                           context);
   }
   const ScreenVertex left{m.x - r * 256, m.y - p * 256};
   const ScreenVertex right{m.x + r * 256, m.y + p * 256};
-  return parts_are_whole({{nw, left, right, ne}, {left, sw, se, right}}, {nw, sw, se, ne}, kWidth, kHeight, context);
+  return parts_are_whole({{nw, left, right, ne}, {left, sw, se, right}}, {nw, sw, se, ne}, kCoverWidth, kCoverHeight,
+                         context);
 }
 
 // ---- 5
@@ -143,8 +145,8 @@ Outcome CentresCase::check(const Context& context) const {
 void FanCase::Rim::fields(Fields& f) { f.number("at", at, 0, 47'999); }
 
 void FanCase::fields(Fields& f) {
-  f.number("x", x, 0, kWidth - 1, 40);
-  f.number("y", y, 0, kHeight - 1, 30);
+  f.number("x", x, 0, kCoverWidth - 1, 40);
+  f.number("y", y, 0, kCoverHeight - 1, 30);
   f.number("half", half, 300, 20'000, 6000);
   f.list("rim", rim, 3, 1000);
 }
@@ -170,7 +172,7 @@ Outcome FanCase::check(const Context& context) const {
                        {hub.x + half, hub.y - half},
                        {hub.x + half, hub.y + half},
                        {hub.x - half, hub.y + half}};
-  return parts_are_whole(fan, square, kWidth, kHeight, context);
+  return parts_are_whole(fan, square, kCoverWidth, kCoverHeight, context);
 }
 
 // ---- 6
@@ -180,8 +182,8 @@ void SliverCase::fields(Fields& f) {
   f.flag("four", four);
   f.number("near_end", near_end, 0, std::int64_t{256} * 700);
   f.number("far_end", far_end, 0, std::int64_t{256} * 700);
-  f.number("from", from, 0, std::int64_t{256} * (upright ? kWidth : kHeight));
-  f.number("to", to, 0, std::int64_t{256} * (upright ? kWidth : kHeight));
+  f.number("from", from, 0, std::int64_t{256} * (upright ? kCoverWidth : kCoverHeight));
+  f.number("to", to, 0, std::int64_t{256} * (upright ? kCoverWidth : kCoverHeight));
 }
 
 Outcome SliverCase::check(const Context& context) const {
@@ -193,7 +195,7 @@ Outcome SliverCase::check(const Context& context) const {
   const ScreenVertex c = at(kLimit - far_end, to + 1);
   Outline o{a, b, c};
   if (four) o = {a, at(-kLimit + near_end, from + 1), c, b};
-  return covers_what_the_oracle_says(o, kWidth, kHeight, context);
+  return covers_what_the_oracle_says(o, kCoverWidth, kCoverHeight, context);
 }
 
 // ---- 7
@@ -201,8 +203,8 @@ Outcome SliverCase::check(const Context& context) const {
 void FlatCase::Along::fields(Fields& f) { f.number("at", at, -100, 100); }
 
 void FlatCase::fields(Fields& f) {
-  f.number("x", x, 0, std::int64_t{256} * kWidth);
-  f.number("y", y, 0, std::int64_t{256} * kHeight);
+  f.number("x", x, 0, std::int64_t{256} * kCoverWidth);
+  f.number("y", y, 0, std::int64_t{256} * kCoverHeight);
   f.number("dx", dx, -256, 256, 1);
   f.number("dy", dy, -256, 256);
   f.list("corner", corners, 3, 8);
@@ -211,13 +213,13 @@ void FlatCase::fields(Fields& f) {
 Outcome FlatCase::check(const Context& context) const {
   Outline flat;
   for (const Along& a : corners) flat.push_back({x + a.at * dx, y + a.at * dy});
-  return draws_nothing(flat, kWidth, kHeight, context);
+  return draws_nothing(flat, kCoverWidth, kCoverHeight, context);
 }
 
 // ---- 8
 
 void LevelCase::fields(Fields& f) {
-  f.number("line", line, 0, kHeight - 1);
+  f.number("line", line, 0, kCoverHeight - 1);
   f.number("above", above, -1, 2);
   f.flag("falling", falling);
   f.number("third", third, -kLimit, kLimit);
@@ -228,8 +230,8 @@ Outcome LevelCase::check(const Context& context) const {
   const int y = line * 256 + 128 - above;
   const int left = falling ? y : y + 1;
   const int right = falling ? y + 1 : y;
-  return covers_what_the_oracle_says({{-kLimit, left}, {kLimit, right}, {third, below ? 50 * 256 : 0}}, kWidth, kHeight,
-                                     context);
+  return covers_what_the_oracle_says({{-kLimit, left}, {kLimit, right}, {third, below ? 50 * 256 : 0}}, kCoverWidth,
+                                     kCoverHeight, context);
 }
 
 // ---- 9
@@ -302,8 +304,8 @@ void MovedCase::fields(Fields& f) {
 }
 
 Outcome MovedCase::check(const Context& context) const {
-  FrameBuilder here(kWidth, kHeight);
-  FrameBuilder there(kWidth, kHeight);
+  FrameBuilder here(kCoverWidth, kCoverHeight);
+  FrameBuilder there(kCoverWidth, kCoverHeight);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
     const Outline at{{face.ax, face.ay}, {face.bx, face.by}, {face.cx, face.cy}};
@@ -320,14 +322,14 @@ Outcome MovedCase::check(const Context& context) const {
   auto b = draw(there.frame(), Config{});
   context.spoil(b);
   Outcome o;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kCoverHeight; ++y)
+    for (int x = 0; x < kCoverWidth; ++x) {
       const int fx = x - dx;
       const int fy = y - dy;
-      const bool inside = fx >= 0 && fx < kWidth && fy >= 0 && fy < kHeight;
-      const std::uint32_t expected = inside ? a[pixel_index(fx, fy, kWidth)] : 0U;
-      if (b[pixel_index(x, y, kWidth)] != expected)
-        o.fail(fmt::format("pixel ({}, {}) is {:06x}, not {:06x}", x, y, b[pixel_index(x, y, kWidth)], expected));
+      const bool inside = fx >= 0 && fx < kCoverWidth && fy >= 0 && fy < kCoverHeight;
+      const std::uint32_t expected = inside ? a[pixel_index(fx, fy, kCoverWidth)] : 0U;
+      if (b[pixel_index(x, y, kCoverWidth)] != expected)
+        o.fail(fmt::format("pixel ({}, {}) is {:06x}, not {:06x}", x, y, b[pixel_index(x, y, kCoverWidth)], expected));
     }
   o.items = b.size();
   const Judgement j = judge(there.frame(), Config{});
@@ -338,7 +340,7 @@ Outcome MovedCase::check(const Context& context) const {
 
 // ---- 13
 
-void JointsCase::Span::fields(Fields& f) { f.number("pixels", pixels, 0, kWidth); }
+void JointsCase::Span::fields(Fields& f) { f.number("pixels", pixels, 0, kCoverWidth); }
 
 void JointsCase::fields(Fields& f) { f.list("span", spans, 1, 60); }
 
@@ -346,16 +348,16 @@ Outcome JointsCase::check(const Context& context) const {
   const Config config;
   std::vector<std::uint32_t> words;
   TokenWriter w(config, words);
-  w.header({kWidth, 1, 0, 0});
-  std::vector<std::uint8_t> expected(std::size_t{kWidth} * 3);
+  w.header({kCoverWidth, 1, 0, 0});
+  std::vector<std::uint8_t> expected(std::size_t{kCoverWidth} * 3);
   int x = 0;
   int color = 0;
   for (const Span& span : spans) {
-    const int to = std::min(kWidth, x + span.pixels);
+    const int to = std::min(kCoverWidth, x + span.pixels);
     ++color;
     SpanToken s;
     s.xl = x;
-    s.xr = context.planted(Plant::wide_span) && to - x >= 3 ? std::min(kWidth, to + 1) : to;
+    s.xr = context.planted(Plant::wide_span) && to - x >= 3 ? std::min(kCoverWidth, to + 1) : to;
     s.z = std::int64_t{1000 - color} << config.z_frac;
     s.color = {color, color, color};
     w.op(s);
@@ -371,7 +373,7 @@ Outcome JointsCase::check(const Context& context) const {
   Outcome o;
   if (status.error != ErrorCode::NONE) o.fail("the golden core refuses the frame");
   if (out != expected) o.fail("a pixel is not that of the one span that holds it");
-  o.pixels = kWidth;
+  o.pixels = kCoverWidth;
   return o;
 }
 

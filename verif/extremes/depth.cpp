@@ -16,9 +16,9 @@
 namespace kage::verif {
 namespace {
 
-constexpr int kWidth = 96;
-constexpr int kMiddle = kWidth / 2;
-constexpr int kHeight = 40;
+constexpr int kDepthWidth = 96;
+constexpr int kMiddle = kDepthWidth / 2;
+constexpr int kDepthHeight = 40;
 
 /// Value of a plane at a pixel, in 2^-24, in 128 bits: the definition, without anything of the front end.
 Int128 exact_value(const ScreenPlane& p, int x, int y) {
@@ -88,18 +88,19 @@ Outcome PastEndCase::check(const Context& context) const {
   // Depth 1 is nearest: what is nearer still stays in front, what is further than the end stays behind.
   Config config;
   config.z_frac = frac;
-  FrameBuilder b(kWidth, kHeight);
-  b.add(rectangle(0, 0, kWidth, kHeight), plane(at), {1, 1, 1});
-  b.add(rectangle(0, 0, kWidth, kHeight), plane(at, slope, 0, kMiddle, 0), {2, 2, 2});
+  FrameBuilder b(kDepthWidth, kDepthHeight);
+  b.add(rectangle(0, 0, kDepthWidth, kDepthHeight), plane(at), {1, 1, 1});
+  b.add(rectangle(0, 0, kDepthWidth, kDepthHeight), plane(at, slope, 0, kMiddle, 0), {2, 2, 2});
   auto p = draw(b.frame(), config);
   context.spoil(p);
   Outcome o;
   for (std::size_t i = 0; i < p.size(); ++i) {
-    const int x = static_cast<int>(i) % kWidth;
+    const int x = static_cast<int>(i) % kDepthWidth;
     const double gap = (x - kMiddle) * slope;
     if (std::abs(gap) < 2 + (x + 1) * std::ldexp(1.0, -frac)) continue;  // the order is open
     const std::uint32_t expected = gap < 0 ? 0x020202U : 0x010101U;
-    if (p[i] != expected) o.fail(fmt::format("pixel ({}, {}) shows {:06x}, not {:06x}", x, i / kWidth, p[i], expected));
+    if (p[i] != expected)
+      o.fail(fmt::format("pixel ({}, {}) shows {:06x}, not {:06x}", x, i / kDepthWidth, p[i], expected));
   }
   const Judgement j = judge(b.frame(), config);
   if (!j.good()) o.fail(j.text());
@@ -114,7 +115,7 @@ void WholeDepthCase::fields(Fields& f) {
   f.number("frac", frac, 0, 12);
   const std::int64_t top = (std::int64_t{1} << z_bits) - 3;
   f.number("z", z, 2, top, top / 2);
-  const std::int64_t slope_most = std::min<std::int64_t>({z - 2, top - z, 1 << 20}) / kWidth;
+  const std::int64_t slope_most = std::min<std::int64_t>({z - 2, top - z, 1 << 20}) / kDepthWidth;
   f.number("slope", slope, -slope_most, slope_most);
   f.number("offset", offset, -1, 1);
 }
@@ -123,9 +124,9 @@ Outcome WholeDepthCase::check(const Context& context) const {
   Config config;
   config.z_bits = z_bits;
   config.z_frac = frac;
-  FrameBuilder b(kWidth, 2);
-  b.add(rectangle(0, 0, kWidth, 2), plane(z, slope, 0, kWidth / 2), {1, 1, 1});
-  b.add(rectangle(0, 0, kWidth, 2), plane(z + offset, slope, 0, kWidth / 2), {2, 2, 2});
+  FrameBuilder b(kDepthWidth, 2);
+  b.add(rectangle(0, 0, kDepthWidth, 2), plane(z, slope, 0, kDepthWidth / 2), {1, 1, 1});
+  b.add(rectangle(0, 0, kDepthWidth, 2), plane(z + offset, slope, 0, kDepthWidth / 2), {2, 2, 2});
   auto p = draw(b.frame(), config);
   context.spoil(p);
   Outcome o;
@@ -148,7 +149,7 @@ void CoplanarCase::fields(Fields& f) {
 }
 
 Outcome CoplanarCase::check(const Context& context) const {
-  FrameBuilder builder(kWidth, kHeight);
+  FrameBuilder builder(kDepthWidth, kDepthHeight);
   const ScreenPlane p = plane(z, a, b, 40, 20);
   for (const Face& face : faces) {
     const auto c = static_cast<std::uint8_t>(face.color);
@@ -159,7 +160,7 @@ Outcome CoplanarCase::check(const Context& context) const {
   Outcome o;
   for (int y = 5; y < 30; ++y)
     for (int x = 10; x < 80; ++x)
-      if ((picture[pixel_index(x, y, kWidth)] & 255U) != static_cast<unsigned>(faces[0].color))
+      if ((picture[pixel_index(x, y, kDepthWidth)] & 255U) != static_cast<unsigned>(faces[0].color))
         o.fail(fmt::format("pixel ({}, {}) does not show the first polygon", x, y));
   o.pixels = std::uint64_t{25} * 70;
   return o;
@@ -169,7 +170,7 @@ Outcome CoplanarCase::check(const Context& context) const {
 
 void ClosePlanesCase::Face::fields(Fields& f) {
   f.number("left", left, 0, 40);
-  f.number("right", right, 41, kWidth, kWidth);
+  f.number("right", right, 41, kDepthWidth, kDepthWidth);
   f.real("z", z, -4, 4);
   f.real("a", a, -0.25, 0.25);
   f.real("b", b, -0.25, 0.25);
@@ -189,23 +190,24 @@ Outcome ClosePlanesCase::check(const Context& context) const {
   config.z_bits = z_bits;
   config.z_frac = frac;
   const double all = std::ldexp(1.0, z_bits) - 2;
-  FrameBuilder builder(kWidth, kHeight);
+  FrameBuilder builder(kDepthWidth, kDepthHeight);
   std::vector<ScreenPlane> planes;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     const Face& face = faces[i];
     // With no fraction bits errors are as large as a picture is wide.
     const double far = frac < 6 ? 96 >> frac : 1;
-    planes.push_back(plane(at * all + face.z * far, (a * all + face.a * 100) / kWidth,
-                           (b * all + face.b * 100) / kWidth, kWidth / 2, kHeight / 2));
-    builder.add(rectangle(face.left, 0, face.right, kHeight), planes.back(), {static_cast<std::uint8_t>(i + 1), 0, 0});
+    planes.push_back(plane(at * all + face.z * far, (a * all + face.a * 100) / kDepthWidth,
+                           (b * all + face.b * 100) / kDepthWidth, kDepthWidth / 2, kDepthHeight / 2));
+    builder.add(rectangle(face.left, 0, face.right, kDepthHeight), planes.back(),
+                {static_cast<std::uint8_t>(i + 1), 0, 0});
   }
   auto p = draw(builder.frame(), config);
   context.spoil(p);
   Outcome o;
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x) {
+  for (int y = 0; y < kDepthHeight; ++y)
+    for (int x = 0; x < kDepthWidth; ++x) {
       // The nearest of those that cover the pixel, against the one that is shown.
-      const auto seen = static_cast<std::size_t>(p[pixel_index(x, y, kWidth)] & 255U);
+      const auto seen = static_cast<std::size_t>(p[pixel_index(x, y, kDepthWidth)] & 255U);
       // A pixel stores no depth but those of 1 .. 2^Z_BITS - 2.
       const auto held = [&](std::size_t i) {
         const Int128 unit = Int128{1} << kPlaneFrac;
@@ -238,7 +240,7 @@ Outcome ClosePlanesCase::check(const Context& context) const {
 void ColourCase::fields(Fields& f) {
   f.number("frac", frac, 0, 16);
   f.flag("grey", grey);
-  f.number("width", width, 1, kWidth);
+  f.number("width", width, 1, kDepthWidth);
   f.real("from", from, 0, 255);
   f.real("to", to, 0, 255, 255);
 }
@@ -248,7 +250,7 @@ Outcome ColourCase::check(const Context& context) const {
   config.smooth = 1;
   config.color_frac = frac;
   config.channels = grey ? 1 : 3;
-  FrameBuilder b(kWidth, 1);
+  FrameBuilder b(kDepthWidth, 1);
   b.add(rectangle(0, 0, width, 1), plane(1000));
   b.frame().polygons[0].color_planes = 0;
   const ScreenPlane colour = plane(from, width > 1 ? (to - from) / (width - 1) : 0);

@@ -13,8 +13,8 @@
 namespace kage::verif {
 namespace {
 
-constexpr int kWidth = 64;
-constexpr int kHeight = 48;
+constexpr int kNumberWidth = 64;
+constexpr int kNumberHeight = 48;
 
 }  // namespace
 
@@ -85,7 +85,7 @@ Outcome NotFiniteCase::check(const Context& context) const {
   Outcome o;
   o.items = 1;
   try {
-    (void)make_geometry(f, Config{}, kWidth, kHeight);
+    (void)make_geometry(f, Config{}, kNumberWidth, kNumberHeight);
     o.fail("it is accepted");
   } catch (const Error& e) {
     if (std::string(e.what()).find(says) == std::string::npos)
@@ -110,7 +110,8 @@ Outcome ScaledCase::check(const Context& context) const {
   f.camera.near *= scale;
   if (!f.camera.perspective) f.camera.half_height *= scale;
   if (denormal) f.vertices[0].x = std::numeric_limits<double>::denorm_min();
-  return picture_is_the_oracles(make_geometry(f, Config{}, kWidth, kHeight, {.look = at.look()}), Config{}, context);
+  return picture_is_the_oracles(make_geometry(f, Config{}, kNumberWidth, kNumberHeight, {.look = at.look()}), Config{},
+                                context);
 }
 
 void CurveCase::fields(Fields& f) { f.real("linear", linear, 0, 1); }

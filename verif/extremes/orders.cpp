@@ -20,8 +20,8 @@ namespace {
 enum Manner { kFree, kLattice, kPanes, kOnePlane, kNearly };
 constexpr std::array kManners{"free", "lattice", "panes", "one_plane", "nearly_one_plane"};
 
-constexpr int kWidth = 80;
-constexpr int kHeight = 60;
+constexpr int kOrderWidth = 80;
+constexpr int kOrderHeight = 60;
 
 Config glass_config(bool smooth) {
   Config c;
@@ -224,8 +224,9 @@ Outcome CutFacesCase::check(const Context& context) const {
   const Look look = look_of(sub_bits);
   Look whole = look;
   whole.translucent = TranslucentWay::submission;
-  FacePixels parts = pixels_of_faces(make_geometry(f, config, kWidth, kHeight, {.look = look}), config);
-  const FacePixels uncut = pixels_of_faces(make_geometry(f, config, kWidth, kHeight, {.look = whole}), config);
+  FacePixels parts = pixels_of_faces(make_geometry(f, config, kOrderWidth, kOrderHeight, {.look = look}), config);
+  const FacePixels uncut =
+      pixels_of_faces(make_geometry(f, config, kOrderWidth, kOrderHeight, {.look = whole}), config);
   if (context.planted(Plant::lost_fragment) && !parts.empty()) parts.erase(std::prev(parts.end()));
   Outcome o;
   if (parts != uncut) o.fail("faces in fragments have other pixels, depths or colours than uncut");
@@ -236,7 +237,7 @@ Outcome CutFacesCase::check(const Context& context) const {
   if (smooth) {
     // A clipped face of several colours is a fan of triangles: together they are the face.
     const Config flat = glass_config(false);
-    const FacePixels faces = pixels_of_faces(make_geometry(f, flat, kWidth, kHeight, {.look = whole}), flat);
+    const FacePixels faces = pixels_of_faces(make_geometry(f, flat, kOrderWidth, kOrderHeight, {.look = whole}), flat);
     if (!std::ranges::equal(parts, faces, {}, &FacePixels::value_type::first, &FacePixels::value_type::first))
       o.fail("faces of several colours have other pixels than faces of one");
   }
@@ -347,7 +348,7 @@ void LayerRaysCase::fields(Fields& f) {
 Outcome LayerRaysCase::check(const Context& context) const {
   const SceneFrame f = glass.frame();
   const Config config = glass_config(false);
-  FrameGeometry g = make_geometry(f, config, kWidth, kHeight, {.look = look_of(sub_bits)});
+  FrameGeometry g = make_geometry(f, config, kOrderWidth, kOrderHeight, {.look = look_of(sub_bits)});
   if (context.planted(Plant::swapped_pair) && g.fragments.size() > 1) std::swap(g.fragments[0], g.fragments[1]);
   const LayerCount count = compare_layers(f, g, config, 2);
   Outcome o;

@@ -9,8 +9,8 @@
 namespace kage::verif {
 namespace {
 
-constexpr int kWidth = 96;
-constexpr int kHeight = 72;
+constexpr int kPolyhedronWidth = 96;
+constexpr int kPolyhedronHeight = 72;
 
 /// The frame's picture by spans is the oracle's, and by segments the same with any number of units.
 Outcome same_and_right(const SceneFrame& f, Config config, int width, int height, const Context& context,
@@ -33,8 +33,8 @@ Outcome same_and_right(const SceneFrame& f, Config config, int width, int height
 // ---- 31
 
 void BlockCase::fields(Fields& f) {
-  f.number("left", left, -20, kWidth + 4, 30);
-  f.number("top", top, -20, kHeight + 4, 20);
+  f.number("left", left, -20, kPolyhedronWidth + 4, 30);
+  f.number("top", top, -20, kPolyhedronHeight + 4, 20);
   f.number("left_part", left_part, 0, 255);
   f.number("top_part", top_part, 0, 255);
   f.number("width", width, 1, std::int64_t{256} * 140, 256);
@@ -56,22 +56,22 @@ Outcome BlockCase::check(const Context& context) const {
     const glm::dvec3 middle((x0 + x1) / 2, (y0 + y1) / 2, 0);
     const glm::dvec3 at(right, v.y < 0 ? y1 : y0, v.z);
     const glm::dvec3 p = turned ? middle + t(at - middle) : at;
-    v = {p.x - kWidth / 2.0, kHeight / 2.0 - p.y, p.z};
+    v = {p.x - kPolyhedronWidth / 2.0, kPolyhedronHeight / 2.0 - p.y, p.z};
   }
   SceneFrame f;
   add_solid(f, s, {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 0.5, 0.2});
   look_at(f.camera, {0, 0, 300}, {0, 0, 0});
   f.camera.perspective = false;
-  f.camera.half_height = kHeight / 2.0;
-  Outcome o = same_and_right(f, Config{}, kWidth, kHeight, context);
+  f.camera.half_height = kPolyhedronHeight / 2.0;
+  Outcome o = same_and_right(f, Config{}, kPolyhedronWidth, kPolyhedronHeight, context);
   if (turned || side > 0) return o;
   // Upright and facing the eye it shows the pixels whose centres it holds: the upper and left edges count.
   const auto centres = [](double from, double to, int size) {
     const double first = std::max(0.0, std::ceil(from - 0.5));
     return std::max(0.0, std::min<double>(size, std::ceil(to - 0.5)) - first);
   };
-  const double expected = centres(x0, x1, kWidth) * centres(y0, y1, kHeight);
-  for (const SegmentCount& c : either_way_counts(f, Config{}, kWidth, kHeight))
+  const double expected = centres(x0, x1, kPolyhedronWidth) * centres(y0, y1, kPolyhedronHeight);
+  for (const SegmentCount& c : either_way_counts(f, Config{}, kPolyhedronWidth, kPolyhedronHeight))
     if (c.by_segments + c.unseen == 1 && static_cast<double>(c.face_pixels) != expected)
       o.fail(fmt::format("{} units: {} pixels, not {}", c.units, c.face_pixels, expected));
   return o;
@@ -139,7 +139,7 @@ Outcome UnitsCase::check(const Context& context) const {
   all.convex = true;
   SceneFrame f = all.frame();
   for (int i = 0; i < copies; ++i) scene.solids[0].add_to(f, static_cast<std::size_t>(i) + 3);
-  return same_and_right(f, Config{}, kWidth, kHeight, context, scene.look());
+  return same_and_right(f, Config{}, kPolyhedronWidth, kPolyhedronHeight, context, scene.look());
 }
 
 // ---- 34
@@ -161,8 +161,8 @@ Outcome ManyCase::check(const Context& context) const {
   look_at(f.camera, {0, 0, 12}, {0, 0, 0});
   Config c;
   c.order_bits = order_bits;
-  Outcome o = same_and_right(f, c, kWidth, kHeight, context);
-  for (const SegmentCount& n : either_way_counts(f, c, kWidth, kHeight))
+  Outcome o = same_and_right(f, c, kPolyhedronWidth, kPolyhedronHeight, context);
+  for (const SegmentCount& n : either_way_counts(f, c, kPolyhedronWidth, kPolyhedronHeight))
     if (n.by_segments > 1 << order_bits) o.fail("more polyhedra by segments than ORDER_BITS can number");
   return o;
 }

@@ -12,16 +12,16 @@
 namespace kage::verif {
 namespace {
 
-constexpr int kWidth = 80;
-constexpr int kHeight = 60;
+constexpr int kShadowWidth = 80;
+constexpr int kShadowHeight = 60;
 
 FrameGeometry geometry(const SceneFrame& f, const Config& config, const Look& look) {
-  return make_geometry(f, config, kWidth, kHeight, {.look = look});
+  return make_geometry(f, config, kShadowWidth, kShadowHeight, {.look = look});
 }
 
 Outcome closed_and_right(const SceneFrame& f, const Config& config, const Look& look, const Context& context) {
   Outcome o = picture_is_the_oracles(geometry(f, config, look), config, context);
-  o.add(volumes_are_closed(f, config, kWidth, kHeight, context, look));
+  o.add(volumes_are_closed(f, config, kShadowWidth, kShadowHeight, context, look));
   return o;
 }
 
