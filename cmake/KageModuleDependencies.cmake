@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Libraries that the modules stand on (ref/module/module.hpp). A program that links kage needs none of them to build.
 find_package(assimp REQUIRED)
+if(NOT KAGE_OPENIMAGEIO)
+  return()
+endif()
 set(CMAKE_MESSAGE_LOG_LEVEL_kept ${CMAKE_MESSAGE_LOG_LEVEL})
 set(CMAKE_MESSAGE_LOG_LEVEL WARNING) # Imath, which it asks for, talks about a Python library nobody wants
 find_package(OpenImageIO REQUIRED QUIET)

@@ -144,9 +144,9 @@ class Tree:
 
     @functools.cache
     def interface(self, changed):
-        """The headers through which a changed C++ file is called. The first is itself or the one of its name, or all of its room
-        where it has none. Then come the headers of files in its room that include one of these, and so on. Nobody calls a
-        test's source."""
+        """The headers through which a changed C++ file is called. The first is itself or the one of its name. Then come
+        the headers of files in its room that include one of these, and so on. In ref/ a file without a header of its name
+        counts for all of its room. Nobody calls a test's source."""
         if room_of(changed) == "verif/test":
             return {changed}
         room = self.room(changed)
@@ -159,7 +159,12 @@ class Tree:
         found = ({changed} & headers) | own(changed) or headers
         while True:
             callers = {f for f in room if self.closure(f) & found}
-            more = found.union(*(own(file) for file in callers))
+            more = found.union(
+                *(
+                    own(file) or (headers if file.startswith("ref/") and file.endswith(".cpp") else set())
+                    for file in callers
+                )
+            )
             if more == found:
                 return found | {changed}
             found = more

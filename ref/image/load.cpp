@@ -12,6 +12,7 @@
 #include "image/module/table.hpp"
 #include "image/opening.hpp"
 #include "image/picture.hpp"
+#include "image/png_reader.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
 #include "module/foreign_code.hpp"
@@ -92,9 +93,9 @@ std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, i
   check_regular(path);
   if (const std::uint64_t bytes = bytes_of_opening(path); bytes > 0)
     check_memory(fmt::format("{}: opening it takes", path.string()).c_str(), bytes, max_bytes);
-  const PictureModule& module = module_table<PictureModule>();
   const ForeignCode mark(path.string() + ": reading it");
-  return module.open(path, part);
+  if (!has_module(PictureModule::kModule) && is_png(path)) return open_png(path, part);
+  return module_table<PictureModule>().open(path, part);
 }
 
 Picture whole_picture(PictureReader& reader) {

@@ -121,6 +121,13 @@ fs::path helper_file(const std::string& file, const std::string& what_for) {
   return own;
 }
 
+bool has_module(const std::string& name) {
+  const std::string file = "lib" + name + ".so";
+  std::error_code ec;
+  const fs::path named = named_folder();
+  return named.empty() ? !in_own_folders(file).empty() : fs::exists(named / file, ec);
+}
+
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room) {
   const fs::path path = find("lib" + name + ".so", what_for);
   if (room > 0) {

@@ -25,6 +25,9 @@ struct ModuleHead {
 /// unless `room` bytes of address space are free, and, if `room` is not 0, unless some threads can be started.
 const ModuleHead* open_module(const std::string& name, const std::string& what_for, std::size_t room);
 
+/// Whether libNAME.so is where open_module() looks for it.
+bool has_module(const std::string& name);
+
 /// The version that both sides must have: ModuleHead.
 extern const char* const kModuleVersion;
 

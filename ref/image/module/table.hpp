@@ -19,7 +19,8 @@ namespace kage {
 
 struct PictureModule : ModuleHead {
   static constexpr const char* kModule = "kage_pictures";
-  static constexpr const char* kWhatFor = "pictures are read and EXR is written with it";
+  static constexpr const char* kWhatFor =
+      "pictures other than PNG are read, and EXR is written, with it (OpenImageIO; Debian: libopenimageio-dev)";
   /// Some 450 MiB of libraries (verif/test/cli/little_memory.sh; Debian 12's take 30 less than Debian 13's), and
   /// OpenImageIO's threads and OpenEXR's, one per processor.
   static std::size_t room() { return (440U + 16U * std::thread::hardware_concurrency()) << 20U; }

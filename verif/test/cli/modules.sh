@@ -20,7 +20,17 @@ expect 0 without "$kage" render mesh.obj --size 64x48 --frames 1 --out out
 cube=/usr/share/glmark2/models/cube.3ds
 trouble "$empty/libkage_meshes.so: cannot open shared object file: No such file or directory, and files other than glTF 2.0, OBJ, PLY, STL and OFF are read with it" \
   without "$kage" render "$cube" --size 64x48 --frames 1 --out out
-trouble "$empty/libkage_pictures.so: cannot open" without "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
+# PNG is read by libpng alone, and comes out the same.
+expect 0 "$kage" render courtyard --size 64x48 --frames 2 --out two
+expect 1 "$kage" diff two/courtyard_0000.png two/courtyard_0001.png --json with.json --out with.png
+expect 1 without "$kage" diff two/courtyard_0000.png two/courtyard_0001.png --json without.json --out without.png
+cmp with.json without.json || fail "without the module the difference is another"
+cmp with.png without.png || fail "without the module the heat map is another"
+cp out/courtyard_0000.png png.exr
+expect 0 without "$kage" diff png.exr out/courtyard_0000.png
+printf 'P6 1 1 255 abc' >one.ppm
+trouble "$empty/libkage_pictures.so: cannot open shared object file: No such file or directory, and pictures other than PNG are read, and EXR is written, with it (OpenImageIO; Debian: libopenimageio-dev)" \
+  without "$kage" diff one.ppm one.ppm
 trouble "$empty/libkage_pictures.so: cannot open" without "$kage" render courtyard --size 64x48 --frames 1 --exr --out exr
 [ ! -e exr ] || fail "a picture that cannot be written leaves a folder"
 expect 0 "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
@@ -32,7 +42,7 @@ chmod +x empty/kage-import
 trouble "courtyard.gltf: $empty/kage-import: is not of kage" without "$kage" render courtyard --size 64x48 --frames 1 --out out
 rm empty/kage-import
 echo junk >empty/libkage_pictures.so
-trouble "$empty/libkage_pictures.so: file too short, and pictures are read" without "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
+trouble "$empty/libkage_pictures.so: file too short, and pictures other than PNG are read" without "$kage" diff out/courtyard_0000.png out/courtyard_0000.png
 version=$("$kage" --version)
 cat >other.c <<C
 struct head { const char* version; void* functions[9]; };

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// PNG files by libpng alone, for installations without the picture module.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "image/picture.hpp"
+
+namespace kage {
+
+/// Whether a file begins as PNG files do.
+bool is_png(const std::filesystem::path& path);
+
+/// Opens a PNG file as open_picture() does. The values come as the file has them: 8 or 16 bits a sample, a palette as
+/// its colours, fewer bits spread over 8, a transparent colour as alpha. Notes that only the picture module makes are
+/// "". Throws Error that names the file.
+std::unique_ptr<PictureReader> open_png(const std::filesystem::path& path, int part);
+
+}  // namespace kage
