@@ -54,6 +54,11 @@ std::string in_capitals(std::string name) {
   return name;
 }
 
+void check_value(const ParamInfo& p, int value, const std::string& where) {
+  if (value < p.min || value > p.max || (p.allowed != 0 && ((p.allowed >> value) & 1U) == 0))
+    throw Error(fmt::format("{}: {} is {}, legal are {}", where, p.name, value, allowed_values(p)));
+}
+
 // `lines`: errors name the entry's line, for what a person wrote in a file.
 Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = false) {
   if (!node.IsMap()) throw Error(fmt::format("{}: not a list of PARAMETER: value", where));
@@ -76,6 +81,7 @@ Config from_yaml(const YAML::Node& node, const std::string& where, bool lines = 
     if (!entry.second.IsScalar() || entry.second.Scalar().find_first_of(" \n") != std::string::npos ||
         !YAML::convert<int>::decode(entry.second, value))
       throw Error(fmt::format("{}: not a whole number", place));
+    if (lines) check_value(*p, value, fmt::format("{}: line {}", where, entry.first.Mark().line + 1));
     config.*(p->member) = value;
   }
   validate(config, where);
@@ -152,11 +158,7 @@ Config config_from_text(const std::string& text, const std::string& where) {
 }
 
 void validate(const Config& config, const std::string& where) {
-  for (const ParamInfo& p : kParams) {
-    const int v = config.*(p.member);
-    if (v < p.min || v > p.max || (p.allowed != 0 && ((p.allowed >> v) & 1U) == 0))
-      throw Error(fmt::format("{}: {} is {}, legal are {}", where, p.name, v, allowed_values(p)));
-  }
+  for (const ParamInfo& p : kParams) check_value(p, config.*(p.member), where);
   for (const RuleInfo& rule : kRules)
     if (!rule.holds(config)) throw Error(fmt::format("{}: {}{}", where, rule.text, values_of(config, rule)));
 }

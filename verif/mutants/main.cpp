@@ -105,18 +105,41 @@ std::string end_of(const Result& r, std::uint64_t seed) {
   return r.set == 0 ? r.verdict->how : fmt::format("{} (seed {})", r.verdict->how, seed + r.set);
 }
 
-void print_row(const Result& r, std::uint64_t seed, bool markdown) {
+void print_row(const Result& r, std::uint64_t seed) {
   const std::string module = r.verdict ? r.verdict->module : "";
   const std::string named = r.verdict && !r.right() ? fmt::format("{} (not {})", module, r.expected) : module;
-  if (markdown) {
-    fmt::print("| {} | {} | {}: {} | {} | {} | {} |\n", r.mutant.name, r.mutant.file, r.mutant.kind, r.mutant.breaks,
-               r.verdict ? r.config : "", end_of(r, seed), named);
-  } else {
-    fmt::print("{:<22} {:<18} {:<16} {:<18} {}\n", r.mutant.name, std::filesystem::path(r.mutant.file).stem().string(),
-               r.verdict ? r.config : "", end_of(r, seed), named);
-    if (r.verdict && !r.right()) fmt::print("    {}\n", r.verdict->text);
-  }
+  fmt::print("{:<22} {:<18} {:<16} {:<18} {}\n", r.mutant.name, std::filesystem::path(r.mutant.file).stem().string(),
+             r.verdict ? r.config : "", end_of(r, seed), named);
+  if (r.verdict && !r.right()) fmt::print("    {}\n", r.verdict->text);
   std::fflush(stdout);
+}
+
+/// A row for each file of rtl/, in the order of their first mutants. The last column has the mutants that are not
+/// killed, and those for which another module is named.
+void print_table(const std::vector<Result>& results) {
+  struct Row {
+    std::string file;
+    int mutants = 0;
+    int killed = 0;
+    int right = 0;
+    std::string others{};
+  };
+  std::vector<Row> rows;
+  for (const Result& r : results) {
+    auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& x) { return x.file == r.mutant.file; });
+    if (row == rows.end()) row = rows.insert(rows.end(), Row{.file = r.mutant.file});
+    const bool right = r.verdict && r.right();
+    ++row->mutants;
+    row->killed += r.verdict ? 1 : 0;
+    row->right += right ? 1 : 0;
+    if (!right)
+      row->others += fmt::format("{}{}: {}", row->others.empty() ? "" : ", ", r.mutant.name,
+                                 r.verdict                     ? r.verdict->module
+                                 : r.mutant.equivalent.empty() ? "lives"
+                                                               : "equivalent");
+  }
+  fmt::print("| of `rtl/` | mutants | killed | named right | the others |\n|---|---|---|---|---|\n");
+  for (const Row& r : rows) fmt::print("| {} | {} | {} | {} | {} |\n", r.file, r.mutants, r.killed, r.right, r.others);
 }
 
 /// Throws Error if a mutant asks for a configuration that there is not: it would be tried nowhere.
@@ -202,14 +225,12 @@ int run_all(std::vector<std::string> arguments) {
   const auto mutants = chosen(all, names, sample, seed);
   const auto start = Clock::now();
   Trials trials(test_seed());
-  if (markdown)
-    fmt::print(
-        "| mutant | of `rtl/` | what it breaks | configuration | verdict | named |\n|---|---|---|---|---|---|\n");
   std::vector<Result> results;
   for (const Mutant& m : mutants) {
     results.push_back(run(m, trials));
-    print_row(results.back(), test_seed(), markdown);
+    if (!markdown) print_row(results.back(), test_seed());
   }
+  if (markdown) print_table(results);
 
   const auto count = [&](auto is) { return std::count_if(results.begin(), results.end(), is); };
   const auto equivalent = count([](const Result& r) { return !r.mutant.equivalent.empty(); });

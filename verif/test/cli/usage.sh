@@ -74,6 +74,7 @@ no_yaml '# mine\n---\nLANES: 4\n...\ngarbage\n' 'line 4: a second document begin
 no_yaml 'LANES: 4: 5\n' 'line 1: not YAML: a line is PARAMETER: value'
 no_yaml 'LANES: *x\n' 'line 1: * wants the name of an anchor, and there is none of this name'
 no_yaml 'LANES: "4\n' 'line 1: LANES: not a whole number'
+no_yaml 'Z_BITS: 24\nLANES: 5\n' 'line 2: LANES is 5, legal are 1, 2, 4, 8, 16, 32'
 line "kage: b: an argument too many; see kage render --help" "$kage" render courtyard b c
 line "kage: --frames: its value is missing; see kage render --help" "$kage" render courtyard --frames
 line "kage: A is missing; see kage diff --help" "$kage" diff
