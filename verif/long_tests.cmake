@@ -95,7 +95,7 @@ set(long_tests
     scene/plan_reasons
     scene/polygon_level_large
     scene/precision
-    tools/dead-cores
+    tools/stub-cores
     tools/lint-verilator
     unit/cosim/stages)
 

@@ -357,7 +357,7 @@ Outcome JointsCase::check(const Context& context) const {
     ++color;
     SpanToken s;
     s.xl = x;
-    s.xr = context.planted(Plant::wide_span) && to - x >= 3 ? std::min(kCoverWidth, to + 1) : to;
+    s.xr = context.injected(Injection::wide_span) && to - x >= 3 ? std::min(kCoverWidth, to + 1) : to;
     s.z = std::int64_t{1000 - color} << config.z_frac;
     s.color = {color, color, color};
     w.op(s);

@@ -16,7 +16,7 @@ class Scanned {
  public:
   Scanned(int width, int height, const Context& context) : hits_(width, height), context_(&context) {}
   Scanned& add(const Outline& o) {
-    hits_.add(o, context_->planted(Plant::wide_span) ? 1 : 0);
+    hits_.add(o, context_->injected(Injection::wide_span) ? 1 : 0);
     return *this;
   }
   [[nodiscard]] const Hits& hits() const { return hits_; }
@@ -89,7 +89,7 @@ Outcome covers_what_the_oracle_says(const Outline& o, int width, int height, con
 
 Outcome draws_nothing(const Outline& given, int width, int height, const Context& context) {
   Outline flat = given;
-  if (context.planted(Plant::moved_corner)) ++flat.back().x;
+  if (context.injected(Injection::moved_corner)) ++flat.back().x;
   Outcome o = covers_what_the_oracle_says(flat, width, height, context);
   Scanned scanned(width, height, context);
   if (scanned.add(flat).hits().unlike(0) != 0) o.fail("a pixel is hit");

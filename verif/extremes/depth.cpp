@@ -64,7 +64,7 @@ Outcome Ramp::errors(const Context& context, int first) const {
   p.c = static_cast<std::int64_t>(begin * (1 << kPlaneFrac)) - p.a * (x - p.x0);
   if (begin > 2 && begin < top - 2 && count == 1) p.c += c_low;
   SpanSetup::Ramp r = SpanSetup(frac, bits).at(p, x, 0, count);
-  if (context.planted(Plant::steep_step) && count > 1) ++r.step;
+  if (context.injected(Injection::steep_step) && count > 1) ++r.step;
   const Int128 limit = static_cast<Int128>(1) << (bits - 1);
   const std::int64_t half = frac > 0 ? std::int64_t{1} << (frac - 1) : 0;
   Outcome o;
@@ -307,7 +307,7 @@ Outcome Layers::check(const Context& context) const {
   for (int i = 0; i < all; ++i) {
     const int color = i < first_count ? first : layers[static_cast<std::size_t>(i - first_count)].color;
     s.color = {color, color, color};
-    if (!(context.planted(Plant::lost_layer) && i == all - 1)) w.tp(s);
+    if (!(context.injected(Injection::lost_layer) && i == all - 1)) w.tp(s);
     exact += (color - exact) * alpha / 255.0;
   }
   w.eol(0);

@@ -8,9 +8,9 @@
 namespace kage::verif {
 namespace {
 
-constexpr std::array kPlants{"none",        "wide_span",    "steep_step",    "lost_layer",   "lost_face",
-                             "near_cap",    "swapped_pair", "moved_corner",  "tilted_plane", "wrong_pixel",
-                             "large_share", "finite_value", "lost_fragment", "lost_word"};
+constexpr std::array kInjections{"none",        "wide_span",    "steep_step",    "lost_layer",   "lost_face",
+                                 "near_cap",    "swapped_pair", "moved_corner",  "tilted_plane", "wrong_pixel",
+                                 "large_share", "finite_value", "lost_fragment", "lost_word"};
 
 }  // namespace
 
@@ -26,14 +26,14 @@ void Outcome::add(const Outcome& o) {
   if (!o.wrong.empty()) fail(o.wrong);
 }
 
-const std::vector<std::string>& plant_names() {
-  static const std::vector<std::string> names(kPlants.begin() + 1, kPlants.end());
+const std::vector<std::string>& injection_names() {
+  static const std::vector<std::string> names(kInjections.begin() + 1, kInjections.end());
   return names;
 }
 
-std::optional<Plant> plant_of(const std::string& name) {
-  for (std::size_t i = 1; i < kPlants.size(); ++i)
-    if (name == kPlants[i]) return static_cast<Plant>(i);
+std::optional<Injection> injection_of(const std::string& name) {
+  for (std::size_t i = 1; i < kInjections.size(); ++i)
+    if (name == kInjections[i]) return static_cast<Injection>(i);
   return std::nullopt;
 }
 

@@ -39,7 +39,7 @@ struct Outcome {
 
 /// Deliberate errors, for tests that must see a campaign find something. A check that knows one spoils what kage gave
 /// it, not kage.
-enum class Plant : std::uint8_t {
+enum class Injection : std::uint8_t {
   none,
   wide_span,      ///< a span of three pixels or more is a pixel too wide
   steep_step,     ///< the step of a depth ramp is one too large
@@ -55,23 +55,23 @@ enum class Plant : std::uint8_t {
   lost_fragment,  ///< the last fragment of a face, or its last pixel, is missing
   lost_word       ///< a word in the middle of a frame is missing at the port
 };
-/// By its name, as --plant takes it.
-std::optional<Plant> plant_of(const std::string& name);
+/// By its name, as --inject takes it.
+std::optional<Injection> injection_of(const std::string& name);
 /// All names.
-const std::vector<std::string>& plant_names();
+const std::vector<std::string>& injection_names();
 
 struct RtlModels;
 
 /// Input of checks besides their case.
 struct Context {
-  Plant plant = Plant::none;
+  Injection injection = Injection::none;
   RtlModels* models = nullptr;  ///< none: families of the RTL have no cases
 
-  [[nodiscard]] bool planted(Plant p) const { return plant == p; }
+  [[nodiscard]] bool injected(Injection p) const { return injection == p; }
   /// Makes a pixel wrong, if that error is injected.
   template <class Pixels>
   void spoil(Pixels& pixels) const {
-    if (planted(Plant::wrong_pixel) && !pixels.empty()) pixels[pixels.size() * 17 / 33] ^= 1;
+    if (injected(Injection::wrong_pixel) && !pixels.empty()) pixels[pixels.size() * 17 / 33] ^= 1;
   }
 };
 

@@ -215,7 +215,7 @@ void TableFrame::measure(std::size_t face, double off_class, Outcome& o, const C
         right += exact[l][c];
         got += g_.shares[first + l][static_cast<std::size_t>(c)] / 65536.0;
       }
-      if (context.planted(Plant::large_share)) got *= 65.0 / 64;
+      if (context.injected(Injection::large_share)) got *= 65.0 / 64;
       o.measure(white[c] * std::abs(got - right), white[c] * (steepest * (weight + kAmbientWeight) * off_class +
                                                               static_cast<double>(lights_.size()) * 0x1p-17));
     }

@@ -12,7 +12,7 @@
 
 #include "extremes/campaign.hpp"
 #include "extremes/found.hpp"
-#include "extremes/plants.hpp"
+#include "extremes/injections.hpp"
 #include "extremes/rtl_models.hpp"
 #include "extremes/table.hpp"
 #include "file/temp_file.hpp"
@@ -38,9 +38,9 @@ Runs cases of extreme inputs against oracles for some time and prints how near e
   --case NAME       only this one, as "FAMILY:SEED:INDEX" names it: prints its text and what it comes to
   --check PATH...   cases from files, or from all files of a folder; each must hold
   --list            all families, a line each
-  --plants          put a deliberate error into each family, one that its check must see, and print in which start it
+  --inject-all          put a deliberate error into each family, one that its check must see, and print in which start it
                     was seen; of --starts, or 200
-  --plant NAME      put a deliberate error into all families: )";
+  --inject NAME      put a deliberate error into all families: )";
 
 constexpr const char* kEnd = R"(
 Exit code: 0 all families hold; 1 one does not; 2 trouble, or a family had no case in the time; 130 after Ctrl-C, with
@@ -51,12 +51,12 @@ examples:
   kage_extremes --family 15,18,19 --minutes 2 --json depth.json
   kage_extremes --case 15:1:42
   kage_extremes --check verif/extremes/found
-  kage_extremes --plants
-  kage_extremes --plant wide_span --family 6 --minutes 0.1 --found /tmp
+  kage_extremes --inject-all
+  kage_extremes --inject wide_span --family 6 --minutes 0.1 --found /tmp
 )";
 
 // Starts in which a check must have seen its family's error.
-constexpr std::uint64_t kPlantStarts = 200;
+constexpr std::uint64_t kInjectionStarts = 200;
 
 volatile std::sig_atomic_t signalled = 0;
 
@@ -81,7 +81,7 @@ struct Arguments {
   std::string one_case;
   std::vector<std::string> files;
   bool list = false;
-  bool plants = false;
+  bool injections = false;
 };
 
 [[noreturn]] void usage(const std::string& cause) { throw Error("kage_extremes: " + cause + " (--help tells more)"); }
@@ -120,9 +120,9 @@ Arguments arguments(int argc, char** argv) {
       return argv[++i];
     };
     if (option == "--help" || option == "-h") {
-      std::string plants;
-      for (const std::string& p : plant_names()) plants += (plants.empty() ? "" : ", ") + p;
-      fmt::print("{}\n                    {}\n{}", kHelp, plants, kEnd);
+      std::string injections;
+      for (const std::string& p : injection_names()) injections += (injections.empty() ? "" : ", ") + p;
+      fmt::print("{}\n                    {}\n{}", kHelp, injections, kEnd);
       std::exit(0);
     }
     if (option == "--seed") {
@@ -148,13 +148,13 @@ Arguments arguments(int argc, char** argv) {
       if (a.files.empty()) usage("--check needs a file or a folder");
     } else if (option == "--list") {
       a.list = true;
-    } else if (option == "--plants") {
-      a.plants = true;
-    } else if (option == "--plant") {
+    } else if (option == "--inject-all") {
+      a.injections = true;
+    } else if (option == "--inject") {
       const std::string name = value();
-      const auto plant = plant_of(name);
-      if (!plant) usage(fmt::format("--plant {}: there is no such error", name));
-      a.campaign.context.plant = *plant;
+      const auto injection = injection_of(name);
+      if (!injection) usage(fmt::format("--inject {}: there is no such error", name));
+      a.campaign.context.injection = *injection;
     } else {
       usage("unknown option: " + option);
     }
@@ -221,16 +221,16 @@ void leave_out(Arguments& a) {
   if (o.families.empty()) usage("no family is left");
 }
 
-int try_plants(Arguments& a) {
+int try_injections(Arguments& a) {
   leave_out(a);
   const CampaignOptions& o = a.campaign;
-  const std::uint64_t starts = o.starts > 0 ? o.starts : kPlantStarts;
+  const std::uint64_t starts = o.starts > 0 ? o.starts : kInjectionStarts;
   std::size_t unseen = 0;
   fmt::print("| family | error | seen in start |\n|---|---|---|\n");
   for (const Family* f : o.families) {
-    const PlantTrial t = try_plant(*f, o.seed, starts, o.context, [] { return signalled != 0; });
+    const InjectionTrial t = try_injection(*f, o.seed, starts, o.context, [] { return signalled != 0; });
     if (signalled != 0) return 128 + signalled;
-    fmt::print("| {} | {} | {} |\n", f->info().name, name_of(t.plant), t.seen ? std::to_string(*t.seen) : "none");
+    fmt::print("| {} | {} | {} |\n", f->info().name, name_of(t.injection), t.seen ? std::to_string(*t.seen) : "none");
     unseen += t.seen ? 0 : 1;
   }
   fmt::print("\n{} of {} families see their error in {} starts\n", o.families.size() - unseen, o.families.size(),
@@ -287,7 +287,7 @@ int main(int argc, char** argv) {
     a.campaign.context.models = &models;
     if (!a.files.empty()) return check_files(a);
     if (!a.one_case.empty()) return run_case(a);
-    if (a.plants) return try_plants(a);
+    if (a.injections) return try_injections(a);
     return campaign(a);
   } catch (const std::exception& e) {
     fmt::print(stderr, "{}\n", e.what());

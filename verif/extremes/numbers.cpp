@@ -37,10 +37,10 @@ void NotFiniteCase::fields(Fields& f) {
 
 Outcome NotFiniteCase::check(const Context& context) const {
   const double inf = std::numeric_limits<double>::infinity();
-  const double bad = context.planted(Plant::finite_value) ? 0
-                     : value == 0                         ? std::numeric_limits<double>::quiet_NaN()
-                     : value == 1                         ? inf
-                                                          : -inf;
+  const double bad = context.injected(Injection::finite_value) ? 0
+                     : value == 0                              ? std::numeric_limits<double>::quiet_NaN()
+                     : value == 1                              ? inf
+                                                               : -inf;
   SceneFrame f = plain_scene();
   std::string says = "camera";
   f.lights.push_back({});
@@ -118,7 +118,7 @@ void CurveCase::fields(Fields& f) { f.real("linear", linear, 0, 1); }
 
 Outcome CurveCase::check(const Context& context) const {
   const double exact = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-  const double got = srgb_encode(linear) * (context.planted(Plant::large_share) ? 65.0 / 64 : 1);
+  const double got = srgb_encode(linear) * (context.injected(Injection::large_share) ? 65.0 / 64 : 1);
   Outcome o;
   o.measure(std::abs(got - exact) * 255, 0.017);
   // Doubles may fall by their last place from one to the next, not over a step that is seen.

@@ -21,7 +21,7 @@ Outcome ways_agree(const OrderTree& tree, const std::vector<Eye>& eyes, const Co
     const auto listed = list->update(eye);
     const auto found = fast->update(eye);
     std::vector<std::uint32_t> order(found.begin(), found.end());
-    if (context.planted(Plant::swapped_pair) && order.size() > 1) std::swap(order[0], order[1]);
+    if (context.injected(Injection::swapped_pair) && order.size() > 1) std::swap(order[0], order[1]);
     if (!std::equal(right.begin(), right.end(), listed.begin(), listed.end()))
       o.fail(fmt::format("step {}: the switching list gives another order", o.items));
     if (!std::equal(right.begin(), right.end(), order.begin(), order.end()))
@@ -41,7 +41,7 @@ Outcome cut_line_is_exact(const Camera& camera, const std::array<glm::dvec3, 3>&
   if (side == 0 || CutOracle::normal(node) == CutOracle::Point{0, 0, 0}) return o;  // no tree has such a node
   const View view(camera, width, height, 24, {camera.near, 100});
   CutLine line = cut_line(view, camera, face, side, node);
-  if (context.planted(Plant::tilted_plane)) line.a += line.a / 64;
+  if (context.injected(Injection::tilted_plane)) line.a += line.a / 64;
   const CutOracle truth(camera, face, node, side, width, height);
   const Number slope = truth.slope();
   if (slope == 0) return o;

@@ -45,7 +45,7 @@ Outcome rays_meet_the_order(const OrderTree& tree, const std::vector<Eye>& eyes,
   for (const Eye& eye : eyes) {
     const auto found = way->update(eye);
     std::vector<std::uint32_t> order(found.begin(), found.end());
-    if (context.planted(Plant::swapped_pair) && order.size() > 1) std::swap(order[0], order[1]);
+    if (context.injected(Injection::swapped_pair) && order.size() > 1) std::swap(order[0], order[1]);
     for (std::uint32_t face = 0; face < tree.face_count(); ++face) {
       const OrderOracle::Point target = oracle.point_of(face, weights(++point));
       if (eye.perspective && target == OrderOracle::exact(eye.at)) continue;
@@ -170,7 +170,7 @@ Outcome PartitionCase::check(const Context& context) const {
   OrderOracle oracle(tree);
   Outcome o;
   for (std::uint32_t face = 0; face < tree.face_count(); ++face) {
-    if (context.planted(Plant::lost_fragment)) oracle.lose_fragment(face);
+    if (context.injected(Injection::lost_fragment)) oracle.lose_fragment(face);
     const OrderOracle::Areas a = oracle.areas(face);
     if (a.face != a.fragments) o.fail(fmt::format("the fragments of face {} have another area than it has", face));
     if (!(a.vertex_error < 1e-9)) o.fail(fmt::format("a vertex of face {} is off by {}", face, a.vertex_error));
@@ -227,7 +227,7 @@ Outcome CutFacesCase::check(const Context& context) const {
   FacePixels parts = pixels_of_faces(make_geometry(f, config, kOrderWidth, kOrderHeight, {.look = look}), config);
   const FacePixels uncut =
       pixels_of_faces(make_geometry(f, config, kOrderWidth, kOrderHeight, {.look = whole}), config);
-  if (context.planted(Plant::lost_fragment) && !parts.empty()) parts.erase(std::prev(parts.end()));
+  if (context.injected(Injection::lost_fragment) && !parts.empty()) parts.erase(std::prev(parts.end()));
   Outcome o;
   if (parts != uncut) o.fail("faces in fragments have other pixels, depths or colours than uncut");
   for (const auto& [place, pixel] : parts)
@@ -349,7 +349,7 @@ Outcome LayerRaysCase::check(const Context& context) const {
   const SceneFrame f = glass.frame();
   const Config config = glass_config(false);
   FrameGeometry g = make_geometry(f, config, kOrderWidth, kOrderHeight, {.look = look_of(sub_bits)});
-  if (context.planted(Plant::swapped_pair) && g.fragments.size() > 1) std::swap(g.fragments[0], g.fragments[1]);
+  if (context.injected(Injection::swapped_pair) && g.fragments.size() > 1) std::swap(g.fragments[0], g.fragments[1]);
   const LayerCount count = compare_layers(f, g, config, 2);
   Outcome o;
   if (count.wrong > 0) o.fail(count.text());

@@ -193,13 +193,13 @@ class TrueFace {
   std::vector<Corner> corners_;
 };
 
-/// A polygon's corners and plane as kage has them, or as a planted error spoils them.
+/// A polygon's corners and plane as kage has them, or as a injected error spoils them.
 struct Given {
   Given(const FrameGeometry& g, const ScreenPolygon& p, const Context& context) : plane(p.depth) {
     const auto outline = g.outline(p);
     corners.assign(outline.begin(), outline.end());
-    if (context.planted(Plant::moved_corner)) corners.back().x += snap_step(g);
-    if (context.planted(Plant::tilted_plane)) plane.a += plane.a / 64;
+    if (context.injected(Injection::moved_corner)) corners.back().x += snap_step(g);
+    if (context.injected(Injection::tilted_plane)) plane.a += plane.a / 64;
   }
 
   std::vector<ScreenVertex> corners;

@@ -32,7 +32,7 @@ Outcome PlaneCase::check(const Context& context) const {
   auto plane = plane_through(v);
   Outcome o;
   if (!plane) return o;
-  if (context.planted(Plant::tilted_plane)) plane->a += plane->a / 64;
+  if (context.injected(Injection::tilted_plane)) plane->a += plane->a / 64;
   o.items = 1;
   // In subpixels from the first vertex, the exact plane has these slopes per subpixel, in 2^-16 LSB.
   const Number bx = b.x - a.x;

@@ -149,7 +149,7 @@ void TrialCase::fields(Fields& f) {
 Outcome TrialCase::run(const Context& context, double sound, double reset, double standstill) const {
   CoreTrial trial(model_of(context, kModels[static_cast<std::size_t>(model)]), static_cast<std::uint64_t>(frames),
                   static_cast<std::uint64_t>(initial),
-                  {groups, sound, reset, standstill, context.planted(Plant::lost_word)});
+                  {groups, sound, reset, standstill, context.injected(Injection::lost_word)});
   Outcome o;
   if (!trial.run()) o.fail(trial.text());
   o.pixels = trial.pixels();

@@ -16,9 +16,9 @@ bool open_to_errors(const FrameGeometry& g, const Config& config, int x, int y) 
   return p.lit && p.shadowed;
 }
 
-/// Where it is planted, the last volume has lost its last face.
+/// Where it is injected, the last volume has lost its last face.
 void lose_face(FrameGeometry& g, const Context& context) {
-  if (context.planted(Plant::lost_face) && !g.volumes.empty()) --g.volumes.back().face_count;
+  if (context.injected(Injection::lost_face) && !g.volumes.empty()) --g.volumes.back().face_count;
 }
 
 }  // namespace

@@ -247,7 +247,7 @@ Outcome CapCase::check(const Context& context) const {
   sun.placed = false;
   sun.apply_to(f.lights[0]);
   FrameGeometry g = geometry(f, counting(bits), look_of(sub_bits));
-  if (context.planted(Plant::near_cap)) bring_caps_nearer(g);
+  if (context.injected(Injection::near_cap)) bring_caps_nearer(g);
   Outcome o = no_acne(g, counting(bits), sub_bits);
   o.add(picture_is_the_oracles(g, counting(bits), context));
   return o;

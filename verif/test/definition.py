@@ -14,7 +14,7 @@ from stages import Stages  # noqa: E402
 TEXT = (top / "rtl/defs/kage.yaml").read_text()
 XL, XR, W = "{name: xl, bits: X_BITS}", "{name: xr, bits: X_BITS}", '{name: w, bits: "DSF_BITS + 1", signed: true}'
 # The injected errors: the text that each stands behind, the old text, the new text; and the message.
-PLANTED = [
+INJECTED = [
     ("name: EV,", f"{XL}, {XR}", f"{XR}, {XL}", "tokens: EV: xl is elsewhere"),
     ("name: TP,", XR, "{name: xr, bits: 16}", "tokens: TP: xr is elsewhere"),
     ("name: ES,", XL, "{name: pad, member: null, bits: 1}, " + XL, "tokens: ES: xl is elsewhere"),
@@ -78,7 +78,7 @@ def said_of_stages(text):
 
 
 failures = [f"as it is: {said_of(TEXT)}"] if said_of(TEXT) else []
-for behind, old, new, expected in PLANTED:
+for behind, old, new, expected in INJECTED:
     before, mark, rest = TEXT.partition(behind)
     assert old in rest, f"{behind} {old}"
     said = said_of(before + mark + rest.replace(old, new, 1))

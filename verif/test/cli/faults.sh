@@ -33,8 +33,8 @@ for patch in "$source"/verif/cosim/model/faults/*.patch; do
   echo "$name: $(grep '^first difference' stdout)"
   # Cores that are silent are known by their silence: no assertion tells of it first.
   case $name in
-    dead_silent) grep -q ': only 0 of 19200 pixels came: the core went idle$' stdout || fail "$name: $(cat stdout)" ;;
-    dead_hang) grep -q ': only 160 of 19200 pixels came: the core went idle$' stdout || fail "$name: $(cat stdout)" ;;
+    stub_silent) grep -q ': only 0 of 19200 pixels came: the core went idle$' stdout || fail "$name: $(cat stdout)" ;;
+    stub_hang) grep -q ': only 160 of 19200 pixels came: the core went idle$' stdout || fail "$name: $(cat stdout)" ;;
   esac
   json "$name.json" 'j["same"] is False and j["first_difference"]["frame"] is not None and j["first_difference"]["field"]'
   [ -n "$(find "$name" -name '*_expected.png')" ] && [ -n "$(find "$name" -name '*_difference.png')" ] || fail "$name: no pictures of the difference"

@@ -78,7 +78,7 @@ expect 1 "$kage" $again
 # A signal while the frame is made smaller: what there is by then is kept. A core that hangs, on long lines with
 # stalls, makes it last.
 echo '{MAX_WIDTH: 2047, LANES: 4, ARRANGEMENT: 1}' >wide.yaml
-silent=(--fault dead_silent --idle 95 --backpressure 95 --no-divergence)
+silent=(--fault stub_silent --idle 95 --backpressure 95 --no-divergence)
 : >ended.err
 KAGE_PROGRESS=0.05 "$kage" cosim random --config wide.yaml "${silent[@]}" --no-report --out ended >ended.out 2>ended.err &
 pid=$!

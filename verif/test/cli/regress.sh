@@ -141,7 +141,7 @@ done
 
 # The report on a difference covers the runs up to it: more jobs begin more runs, and rounds, behind it.
 for jobs in 1 16; do
-  expect 1 "$kage" regress --rounds 5 --config tiny --fault dead_garbage --no-divergence --jobs $jobs --out dead --json dead$jobs.json
+  expect 1 "$kage" regress --rounds 5 --config tiny --fault stub_garbage --no-divergence --jobs $jobs --out dead --json dead$jobs.json
   grep -q '^different: 1 run of 1 round, ' "$temp/stdout" || fail "--jobs $jobs: $(cat "$temp/stdout")"
   json dead$jobs.json 'j["rounds"] == 1 and j["runs"] == 1'
 done
@@ -170,21 +170,21 @@ python3 -c 'import json; j = json.load(open("signalled.json")); assert j["interr
 # told however little of it can be written.
 trouble "no/x.xml" timeout 60 "$kage" regress --minutes 60 --config tiny --out nowhere --junit no/x.xml
 for option in --junit --json; do
-  expect 2 "$kage" regress --rounds 1 --config tiny --fault dead_garbage --no-divergence --out full "$option" /dev/full
+  expect 2 "$kage" regress --rounds 1 --config tiny --fault stub_garbage --no-divergence --out full "$option" /dev/full
   [ "$(wc -l <"$temp/stderr")" = 1 ] && grep -q '^kage: /dev/full: ' "$temp/stderr" || fail "$option /dev/full: $(cat "$temp/stderr")"
   grep -q '^different: ' "$temp/stdout" && grep -q '^first difference: frame 0, ' "$temp/stdout" && grep -q '^that run again: ' "$temp/stdout" ||
     fail "$option /dev/full: the difference is lost: $(cat "$temp/stdout")"
   ! grep -q '^pictures: \|^report: \|^the frame: ' "$temp/stdout" || fail "files are told that did not appear: $(cat "$temp/stdout")"
 done
 mkdir -p paged/report.html
-expect 1 "$kage" regress --rounds 1 --config tiny --fault dead_garbage --no-divergence --out paged --json paged.json --junit paged.xml
+expect 1 "$kage" regress --rounds 1 --config tiny --fault stub_garbage --no-divergence --out paged --json paged.json --junit paged.xml
 grep -q '^no report over all runs was written: ' "$temp/stdout" && grep -q '^first difference: ' "$temp/stdout" ||
   fail "without the page: $(cat "$temp/stdout")"
 json paged.json 'j["report"] is None and not j["same"]'
 [ -s paged.xml ] || fail "without the page there is no JUnit"
 mkdir blocked
 touch blocked/random.tiny.0
-expect 1 "$kage" regress --rounds 1 --config tiny --fault dead_garbage --no-divergence --out blocked
+expect 1 "$kage" regress --rounds 1 --config tiny --fault stub_garbage --no-divergence --out blocked
 grep -q '^random.tiny.0 was not repeated: ' "$temp/stdout" && grep -q '^first difference: ' "$temp/stdout" ||
   fail "without a folder for the evidence: $(cat "$temp/stdout")"
 

@@ -153,8 +153,8 @@ for path in sorted(written.iterdir()):
 
 def all_commands(kage):
     """Each schema is named here, but for those of tools that are tried elsewhere, and each command that has JSON writes some."""
-    # By tools/test-fpga and the tests tools/dead-cores and extremes/program.
-    elsewhere = {"fpga", "fpga-board", "fpga-core", "dead-cores", "extremes"}
+    # By tools/test-fpga and the tests tools/stub-cores and extremes/program.
+    elsewhere = {"fpga", "fpga-board", "fpga-core", "stub-cores", "extremes"}
     check(named == set(schemas) - elsewhere, f"schemas that no command names: {set(schemas) - named - elsewhere}")
     text = subprocess.run([kage, "--help"], capture_output=True, text=True, check=True).stdout
     commands = re.findall(r"^  ([a-z]+) ", text.split("Subcommands:")[1].split("\n\n")[0], re.M)

@@ -33,7 +33,7 @@ said 1 cosim courtyard "${small[@]}" --fault wrong_compare --out different
 cp "$last" found.json
 json "$last" 'j["first_difference"]["divergence"] and j["first_difference"]["waveform"]'
 said 1 cosim courtyard "${small[@]}" --fault wrong_compare --no-divergence --no-report --out different
-said 1 cosim courtyard "${small[@]}" --fault dead_hang --no-report --no-divergence --out hang
+said 1 cosim courtyard "${small[@]}" --fault stub_hang --no-report --no-divergence --out hang
 said 0 cosim random:damaged --frames 20 --config tiny --no-report --out damaged
 # A difference of the register check, which no frame has.
 number=$(python3 -c 'import sys, yaml; print([m["name"] for m in yaml.safe_load(open(sys.argv[1]))].index("registers_shape") + 1)' "$source/verif/mutants/mutants.yaml")

@@ -109,7 +109,7 @@ TEST_CASE("a check that throws is a failure, and a failure of any sort ends with
   o.families = {family_named("6"), family_named("2")};
   o.starts = 30;
   o.found = folder.path();
-  o.context.plant = Plant::wide_span;
+  o.context.injection = Injection::wide_span;
   const CampaignState state = run_campaign(o);
   CHECK(state.failed() == 2);
   const auto files = found_files(folder.path());

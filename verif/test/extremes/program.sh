@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# kage_extremes: a planted error is found, made small, kept whole, and fails when it is run again, as long as it is there;
+# kage_extremes: a injected error is found, made small, kept whole, and fails when it is run again, as long as it is there;
 # exit codes, messages, JSON, and what is left after Ctrl-C.
 #
 # usage: program.sh KAGE_EXTREMES SOURCE_DIR
@@ -22,11 +22,11 @@ gives() {
 }
 said() { grep -qF -- "$1" "$work/out" || { cat "$work/out" >&2; fail "does not say: $1"; }; }
 
-# plant ERROR FAMILY LINES: the error is found in the family, and its case has no more than so many lines.
-plant() {
+# inject ERROR FAMILY LINES: the error is found in the family, and its case has no more than so many lines.
+inject() {
   local folder=$work/$1-$2
   mkdir "$folder"
-  gives 1 "$extremes" --plant "$1" --family "$2" --starts 200 --found "$folder"
+  gives 1 "$extremes" --inject "$1" --family "$2" --starts 200 --found "$folder"
   said FAILED
   local files=("$folder"/*)
   [ ${#files[@]} = 1 ] || fail "$1: ${#files[@]} files, not one"
@@ -34,32 +34,32 @@ plant() {
   local lines
   lines=$(grep -vc '^#' "${files[0]}")
   [ "$lines" -le "$3" ] || { cat "${files[0]}" >&2; fail "$1: $lines lines are not small"; }
-  gives 1 "$extremes" --plant "$1" --check "${files[0]}"  # the error is there: it fails
+  gives 1 "$extremes" --inject "$1" --check "${files[0]}"  # the error is there: it fails
   gives 0 "$extremes" --check "${files[0]}"               # and without it it holds
   said "1 cases, 0 of them wrong"
   gives 0 "$extremes" --check "$folder"
 }
-plant wide_span 6 7
-plant wide_span 13 3
-plant steep_step "15 long" 10
-plant lost_layer "20 deep" 7
-plant lost_face 25 22
-plant swapped_pair 35 8
+inject wide_span 6 7
+inject wide_span 13 3
+inject steep_step "15 long" 10
+inject lost_layer "20 deep" 7
+inject lost_face 25 22
+inject swapped_pair 35 8
 for error in moved_corner tilted_plane; do
-  plant $error "plane unsnapped" 18
-  plant $error "plane side" 22
+  inject $error "plane unsnapped" 18
+  inject $error "plane side" 22
 done
 
-# Each family sees an error that is planted in it; docs/extremes.md has which.
-gives 0 "$extremes" --plants
-python3 - "$work/out" "$source/docs/extremes.md" <<'PY' || fail "docs/extremes.md has other planted errors than kage_extremes --plants"
+# Each family sees an error that is injected into it; docs/extremes.md has which.
+gives 0 "$extremes" --inject-all
+python3 - "$work/out" "$source/docs/extremes.md" <<'PY' || fail "docs/extremes.md has other injected errors than kage_extremes --inject-all"
 import pathlib, re, sys
 said = {row[1]: row[2] for row in map(re.compile(r"\| (.+) \| (\w+) \| \d+ \|").fullmatch, open(sys.argv[1]).read().splitlines()) if row}
 assert len(said) >= 50, said
 told = {}
 for row in re.finditer(r"^\| `(\w+)` \| [^|]+ \| ([^|]+) \|$", pathlib.Path(sys.argv[2]).read_text(), re.M):
     told |= {family.strip(): row[1] for family in row[2].split(",")}
-missing = {family: plant for family, plant in said.items() if told.get(family) != plant}
+missing = {family: injection for family, injection in said.items() if told.get(family) != injection}
 assert not missing, missing
 PY
 
@@ -86,7 +86,7 @@ PY
 # JSON is what docs/schema says, of a failure and of families without a case too.
 mkdir "$work/json"
 cp "$work/1.json" "$work/json/extremes.1.json"
-gives 1 "$extremes" --plant wide_span --family 2 --starts 50 --found "$work" --json "$work/json/extremes.2.json"
+gives 1 "$extremes" --inject wide_span --family 2 --starts 50 --found "$work" --json "$work/json/extremes.2.json"
 # A time too short for a case of each family: those without one neither hold nor fail, and the campaign is none.
 gives 2 "$extremes" --minutes 0.001 --jobs 1 --found "$work" --json "$work/json/extremes.3.json"
 said "families had no case: --minutes 0.001 is too short for them"
@@ -117,7 +117,7 @@ refused "--minutes 0: it must be" --minutes 0
 refused "--seed needs a value" --seed
 refused "no such folder" --family 1 --found "$work/nowhere"
 refused "no such folder" --family 1 --starts 1 --json "$work/nowhere/a.json"
-refused "--plant nothing: there is no such error" --plant nothing
+refused "--inject nothing: there is no such error" --inject nothing
 refused "it must be FAMILY:SEED:INDEX" --case 15
 mkdir "$work/bad"
 bad() { # TEXT CAUSE

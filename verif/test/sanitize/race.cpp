@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A race of kage's own kind, planted: bodies of one loop over an arena count in one number without a lock. The thread
-// sanitizer must say so (tools/test --threads): neither what it leaves out (not_ours.txt) nor what is suppressed
+// A race of kage's own kind, on purpose: bodies of one loop over an arena count in one number without a lock. The
+// thread sanitizer must say so (tools/test --threads): neither what it leaves out (not_ours.txt) nor what is suppressed
 // (scheduler.txt) may hide it.
 #include <tbb/blocked_range.h>
 

@@ -41,12 +41,12 @@ Outcome golden(const Config& c, const Words& words, CoreObserver* observer = nul
   return o;
 }
 
-struct Opinion : Outcome {
+struct Reference : Outcome {
   bool loose = false;  // the contract leaves open what the frame shows
 };
 
-Opinion opinion(const Config& c, const Words& words) {
-  Opinion o;
+Reference reference(const Config& c, const Words& words) {
+  Reference o;
   o.status = simple_core(c, words, o.pixels, &o.loose);
   return o;
 }
@@ -76,7 +76,7 @@ TEST_CASE("sound frames at the polygon level are taken, and show what a plain re
     CAPTURE(round, to_yaml(c));
     made += check_frame(c, words, "frame", 0).made;
     const Outcome a = golden(c, words);
-    const Opinion b = opinion(c, words);
+    const Reference b = reference(c, words);
     REQUIRE(a.status.error == ErrorCode::NONE);
     REQUIRE_FALSE(b.loose);
     REQUIRE(a.status == b.status);
@@ -98,7 +98,7 @@ TEST_CASE("frames at the polygon level as a port takes them show what a plain re
     const Words words = sound_frame(random, c, static_cast<std::uint32_t>(round), Level::polygons);
     CAPTURE(round, to_yaml(c));
     const Outcome a = golden(c, words);
-    const Opinion b = opinion(c, words);
+    const Reference b = reference(c, words);
     REQUIRE(a.status.error == ErrorCode::NONE);
     REQUIRE_FALSE(b.loose);
     REQUIRE(a.status == b.status);
@@ -123,7 +123,7 @@ TEST_CASE("damaged frames at the polygon level end with the status that a plain 
     CAPTURE(round, to_yaml(c));
     CoreObserver watched;  // made tokens become words
     const Outcome a = golden(c, words, round % 3 == 0 ? &watched : nullptr);
-    const Opinion b = opinion(c, words);
+    const Reference b = reference(c, words);
     // Where an edge is not one that goes down through its line, which of the two spans is empty is open.
     if (b.loose) {
       ++open;

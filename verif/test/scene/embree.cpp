@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Embree as a third opinion: surfaces and shadows of all built-in scenes and of real meshes on a ground. Each pixel
+// Embree as Embree: surfaces and shadows of all built-in scenes and of real meshes on a ground. Each pixel
 // that differs is a near tie, or Embree's single precision, which rays in double precision tell; none is wrong.
 #include <fmt/format.h>
 

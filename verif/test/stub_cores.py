@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""tools/dead-cores tells a test that fails with a dead core from one that does not, and its rows are what docs/schema says.
+"""tools/stub-cores tells a test that fails with a stub core from one that does not, and its rows are what docs/schema says.
 
-usage: dead_cores.py SOURCE BUILD      BUILD: a build folder with tests
+usage: stub_cores.py SOURCE BUILD      BUILD: a build folder with tests
 """
 
 import json
@@ -18,14 +18,14 @@ failures = []
 
 def run(build, folder, *arguments):
     """Exit code, what was printed, rows."""
-    file = folder / "dead-cores.1.json"
+    file = folder / "stub-cores.1.json"
     command = [
         sys.executable,
-        SOURCE / "tools/dead_cores.py",
+        SOURCE / "tools/stub_cores.py",
         SOURCE,
         build,
         "--fault",
-        "dead_silent",
+        "stub_silent",
         "--json",
         file,
         *arguments,
@@ -55,7 +55,7 @@ with tempfile.TemporaryDirectory() as name:
     expect(
         "its rows",
         [(r["core"], r["verdict"], r["uses_core"]) for r in rows]
-        == [("sound", "passes", True), ("dead_silent", "fails", True)],
+        == [("sound", "passes", True), ("stub_silent", "fails", True)],
         said,
     )
     checker = [sys.executable, SOURCE / "verif/test/cli/schema.py", SOURCE / "docs/schema", temp / "json"]
@@ -77,12 +77,12 @@ with tempfile.TemporaryDirectory() as name:
     code, said, _ = run(
         tests_of(temp / "a", ("rtl/blind", ["bash", blind, *command])), temp / "a", "--tests", "^rtl/blind$"
     )
-    expect("a test that looks at nothing", code == 1 and "PASS with a dead core: rtl/blind (dead_silent)" in said, said)
+    expect("a test that looks at nothing", code == 1 and "PASS with a stub core: rtl/blind (stub_silent)" in said, said)
     code, said, _ = run(
         tests_of(temp / "b", ("rtl/early", ["bash", early, *command])), temp / "b", "--tests", "^rtl/early$"
     )
     expect(
-        "a test that ends before its dead core", code == 1 and "before they make a dead core: rtl/early" in said, said
+        "a test that ends before its stub core", code == 1 and "before they make a stub core: rtl/early" in said, said
     )
 print(*failures, sep="\n", end="\n" if failures else "")
 sys.exit(bool(failures))

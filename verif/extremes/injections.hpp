@@ -11,19 +11,19 @@
 
 namespace kage::verif {
 
-/// The error that a family's check must see; Plant::none: there is none for it.
-Plant plant_for(const Family& family);
-/// Its name, as --plant takes it; "none".
-const char* name_of(Plant plant);
+/// The error that a family's check must see; Injection::none: there is none for it.
+Injection injection_for(const Family& family);
+/// Its name, as --inject takes it; "none".
+const char* name_of(Injection injection);
 
 /// How a check that must see its family's error fared.
-struct PlantTrial {
-  Plant plant = Plant::none;
+struct InjectionTrial {
+  Injection injection = Injection::none;
   std::optional<std::uint64_t> seen;  ///< the first start in which the case with the error fails
 };
 
 /// Runs up to `starts` starts of a family with its error, until one fails.
-PlantTrial try_plant(const Family& family, std::uint64_t seed, std::uint64_t starts, Context context,
-                     const std::function<bool()>& stop);
+InjectionTrial try_injection(const Family& family, std::uint64_t seed, std::uint64_t starts, Context context,
+                             const std::function<bool()>& stop);
 
 }  // namespace kage::verif

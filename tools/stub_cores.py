@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""See tools/dead-cores."""
+"""See tools/stub-cores."""
 
 import argparse
 import collections
@@ -19,7 +19,7 @@ import time
 
 import kept_rows
 
-SCHEMA = "kage.dead-cores/1"  # of a row: docs/schema
+SCHEMA = "kage.stub-cores/1"  # of a row: docs/schema
 MAY_USE_A_CORE = r"^(cli|rtl|examples|mutants)/|^unit/cosim/|^package/consumer$"
 # Their program has the core in it: it is built of the copied tree.
 CORE_IN_THE_PROGRAM = {"rtl/kage_top", "rtl/kage_top_units"}
@@ -36,7 +36,7 @@ EXEMPT = {
 # Goes into the driver of the copied tree: a core that was made leaves a mark. The name does not begin with KAGE_, because
 # cli/help looks for such names in the sources.
 MARK = """
-  if (const char* mark = std::getenv("DEAD_CORES_MARK")) {
+  if (const char* mark = std::getenv("STUB_CORES_MARK")) {
     if (FILE* file = std::fopen(mark, "a")) std::fclose(file);
   }
 """
@@ -74,7 +74,7 @@ def sources_of(top):
 def parameters(library):
     """PARAM=VALUE of a model; read by a process of its own, which keeps no library open."""
     text = (
-        "import ctypes, sys; sys.path.insert(0, sys.argv[1]); from dead_cores import Table\n"
+        "import ctypes, sys; sys.path.insert(0, sys.argv[1]); from stub_cores import Table\n"
         "api = ctypes.CDLL(sys.argv[2]).kage_rtl_api; api.restype = ctypes.POINTER(Table); t = api()[0]\n"
         "print(*(f'{t.param_names[i].decode()}={t.param_values[i]}' for i in range(t.param_count)))"
     )
@@ -165,7 +165,7 @@ class Tree:
         mark = scratch / "mark"
         (scratch / "tmp").mkdir()
         environment = {**os.environ, "KAGE_DATA_DIR": str(self.copy), "XDG_CACHE_HOME": str(self.cache)}
-        environment |= {"DEAD_CORES_MARK": str(mark), "TMPDIR": str(scratch / "tmp")}
+        environment |= {"STUB_CORES_MARK": str(mark), "TMPDIR": str(scratch / "tmp")}
         properties = {p["name"]: p["value"] for p in test.get("properties", [])}
         environment.update(e.split("=", 1) for e in properties.get("ENVIRONMENT", []))
         verdict = ""
@@ -282,16 +282,16 @@ def tell(rows):
         print(f"left out here: {named(left_out)}")
     late = [row for row in dead if row["verdict"] == "takes too long"]
     if late:
-        print(f"do not end with a dead core: {named(late)}")
+        print(f"do not end with a stub core: {named(late)}")
     # A test that fails before it makes a core says nothing of the core.
     early = [
         row for row in dead if row["verdict"] == "left out" or (row["verdict"] == "fails" and not row["uses_core"])
     ]
     if early:
-        print(f"fail or leave out before they make a dead core: {named(early)}")
+        print(f"fail or leave out before they make a stub core: {named(early)}")
     passed = [row for row in dead if row["verdict"] == "passes"]
     if passed:
-        print("PASS with a dead core: " + ", ".join(f"{row['test']} ({row['core']})" for row in passed))
+        print("PASS with a stub core: " + ", ".join(f"{row['test']} ({row['core']})" for row in passed))
     if broken:
         raise Trouble(f"these do not pass with the sound core: {named(broken)}")
     if not dead:
@@ -300,7 +300,7 @@ def tell(rows):
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="tools/dead-cores")
+    parser = argparse.ArgumentParser(prog="tools/stub-cores")
     parser.add_argument("top", type=pathlib.Path)
     parser.add_argument("build")
     parser.add_argument("--fault", action="append", default=[])
@@ -316,9 +316,9 @@ if __name__ == "__main__":
     try:
         sys.exit(main())
     except (Trouble, kept_rows.NotThese) as e:
-        print(f"tools/dead-cores: {e}", file=sys.stderr)
+        print(f"tools/stub-cores: {e}", file=sys.stderr)
     except subprocess.CalledProcessError as e:
-        print(f"tools/dead-cores: {' '.join(map(str, e.cmd))}: exit code {e.returncode}", file=sys.stderr)
+        print(f"tools/stub-cores: {' '.join(map(str, e.cmd))}: exit code {e.returncode}", file=sys.stderr)
     except OSError as e:
-        print(f"tools/dead-cores: {e}", file=sys.stderr)
+        print(f"tools/stub-cores: {e}", file=sys.stderr)
     sys.exit(2)
