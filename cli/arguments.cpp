@@ -221,8 +221,7 @@ Option grouped(CLI::Option* option) {
 
 }  // namespace
 
-ValueError::ValueError(std::string option, const std::string& fault)
-    : std::runtime_error(option + ": " + fault), option_(std::move(option)) {}
+ValueError::ValueError(const std::string& option, const std::string& fault) : Error(option + ": " + fault) {}
 
 // ---- options
 // ---------------------------------------------------------------------------------------------------------
@@ -317,7 +316,8 @@ template Option Command::add_option_function(Name, const std::function<void(cons
 Program::Program(const std::string& about, const std::string& version, const std::string& footer)
     : app_(std::make_unique<CLI::App>(about, "kage")) {
   app_->formatter(std::make_shared<HelpFormatter>());
-  app_->set_version_flag("-V,--version", version);
+  app_->set_version_flag("-V,--version", version)->group(help_group("--version"));
+  app_->get_help_ptr()->group(help_group("--help"));
   app_->footer(footer);
   app_->require_subcommand(0, 1);
   app_->option_defaults()->multi_option_policy(
@@ -328,6 +328,7 @@ Program::~Program() = default;
 
 Command Program::add(const std::string& name, const std::string& what, const std::string& examples) {
   CLI::App* const command = app_->add_subcommand(name, what);
+  command->get_help_ptr()->group(help_group("--help"));
   command->footer("Examples:\n" + examples);
   return Command(command);
 }

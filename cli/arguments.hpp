@@ -10,10 +10,11 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "kage/error.hpp"
 
 namespace CLI {
 class App;
@@ -52,13 +53,9 @@ struct Check {
 };
 
 /// An option's value is refused: the message is one line, OPTION: FAULT.
-class ValueError : public std::runtime_error {
+class ValueError : public Error {
  public:
-  ValueError(std::string option, const std::string& fault);
-  const std::string& option() const { return option_; }
-
- private:
-  std::string option_;
+  ValueError(const std::string& option, const std::string& fault);
 };
 
 /// An option or a positional argument of a command.

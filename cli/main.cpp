@@ -98,7 +98,7 @@ void find_data() {
   if (fs::exists(prefix / "share/kage/rtl/defs/configs.yaml", ec))
     setenv("KAGE_DATA_DIR", (prefix / "share/kage").c_str(), 0);
   const fs::path modules = prefix / KAGE_INSTALL_LIBDIR / "kage";
-  if (fs::exists(modules / "libkage_pictures.so", ec)) setenv("KAGE_MODULE_DIR", modules.c_str(), 0);
+  if (fs::exists(modules / "libkage_meshes.so", ec)) setenv("KAGE_MODULE_DIR", modules.c_str(), 0);
 }
 
 int run(int argc, char** argv) {

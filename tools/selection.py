@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Which tests a change concerns, and what the build must make for tests.
+"""Which tests a change concerns, as far as files name each other, and what the build must make for tests.
 
 usage: selection.py changed BUILD [BASE]         names of tests, one a line: those that read a file which differs from BASE
        selection.py needs BUILD [OPTION of ctest...]     outputs of the build that the selected tests need
@@ -55,12 +55,25 @@ READERS = {
     "verif/test/report/*": ("cli/report",),
     "verif/cosim/model/faults/*": ("rtl/fault_*", "unit/cosim/faults"),
     "verif/fuzz/*": ("fuzz/*",),
+    "verif/test/formal/undecided_synchronizer.sv": ("formal/async_fifo",),
+    "verif/test/package/*": ("package/*",),
+    "verif/test/support/import_answers.cpp": ("unit/scene/import",),
     "verif/test/hls/*": ("hls/*",),
     "ref/bind/*": ("unit/bind/*", "python/*", "examples/*"),
     "ref/scene/module/*": ("unit/scene/*", "scene/meshes"),
     "tools/fpga*": ("cli/fpga", "synth/*"),
-    "rtl/*.sv": ("rtl/contracts", "rtl/elaborate_*", "rtl/tb", "rtl/template", "synth/crossings*"),
-    "scenes/*": ("scene/builtin",),
+    "rtl/*.sv": ("rtl/contracts", "rtl/tb", "rtl/template"),
+    "rtl/*.v": ("rtl/contracts", "rtl/tb", "rtl/template"),
+    "rtl/*.svh": ("rtl/contracts", "rtl/tb", "rtl/template"),
+    "rtl/kage.f": ("rtl/tb", "cli/vectors*"),
+    "ref/include/kage/golden*": ("unit/bind/*", "python/*", "examples/*"),
+    "ref/module/*": ("cli/modules", "unit/scene/import"),
+    "ref/simd/*": ("simd/*", "cli/simd"),
+    "verif/vectors/bench/*": ("cli/vectors*",),
+    "verif/cosim/model/driver/*": ("cli/cosim", "cli/model_*", "rtl/families_39_40_41_flat4"),
+    "constraints/boards/sim/*": ("board/*", "cli/board", "rtl/sdram", "rtl/frame_memory"),
+    "tools/gates": ("gates/*",),
+    "scenes/*": ("scene/builtin", "cli/scene_*", "cli/cosim"),
     "python/*": ("python/*",),
     "hls/*": ("hls/*",),
     "examples/*": ("examples/*",),
@@ -192,7 +205,12 @@ def tops(tree, name):
 def seeds(tree, test):
     """The files that a test's command names, and those that its programs are made of."""
     name, command = re.sub(r"^simd/\w+/", "", test["name"]), test["command"]
-    found = {word[len(str(tree.top)) + 1 :] for word in command if word.startswith(f"{tree.top}/")} & tree.files
+    given = [str(p["value"]) for p in test["properties"] if p["name"] == "ENVIRONMENT"]
+    command = command + re.findall(r"=(/[^;,'\"\]]+)", " ".join(given))
+    globs = [command[at + 1] for at, word in enumerate(command) if word == "--reads"]
+    # A proof declares all modules, and reads its own with those within it.
+    found = {file for glob in globs if not name.startswith("formal/") for file in tree.matching(glob)}
+    found |= {word[len(str(tree.top)) + 1 :] for word in command if word.startswith(f"{tree.top}/")} & tree.files
     found |= {
         f
         for f in (f"verif/test/{name}.cpp", f"verif/test/{name}.sh", f"verif/test/formal/{name[7:]}_proof.sv")
@@ -242,6 +260,8 @@ def concerned(tree, tests, changed):
         return None, []
     read = {}
     for test in tests:
+        if test["name"] == "tools/selection":  # it names files as examples
+            continue
         name = test["name"]
         read[name] = tree.read[name] = tree.read.get(name) or reads(tree, test)
     chosen = {name for name in read if any(fnmatch.fnmatch(name, pattern) for pattern in WHOLE_TREE)}
@@ -259,8 +279,10 @@ def concerned(tree, tests, changed):
 
 
 def changed_files(base):
-    differing = run("git", "diff", "--name-only", "--no-renames", base, "--").split()
-    return sorted({*differing, *run("git", "ls-files", "--others", "--exclude-standard").split()})
+    """Files that differ from the commit at which this branch left BASE."""
+    fork = run("git", "merge-base", base, "HEAD").strip()
+    differing = run("git", "diff", "-z", "--name-only", "--no-renames", fork, "--").split("\0")
+    return sorted({*differing, *run("git", "ls-files", "-z", "--others", "--exclude-standard").split("\0")} - {""})
 
 
 def is_long(test):

@@ -10,13 +10,14 @@ usage: stamped.py [--reads GLOB]... [--program FILE]... [--tool COMMAND]... [--v
   --variable NAME   an environment variable that it asks for
   COMMAND           words that name a file of the source tree mean the copy
 
-The command runs in a copy of the files that --reads names, and finds no other file of the source tree. So a file that
-is not named cannot decide the test. A test that passes leaves a stamp in ~/.cache/kage/stamps, named by the SHA-256 of
-all of these, and is not run again while that stands. KAGE_FRESH=1 (tools/test --fresh) runs every test, as .ci/nightly
+The command runs in a copy of the files that --reads names, and is given no other file of the source tree. A file that is
+not named is missing where a script looks for it. A test that passes leaves a stamp in ~/.cache/kage/stamps, named by the SHA-256 of
+all of these, and is not run again while that stands, which is for 90 days after its last use. KAGE_FRESH=1 (tools/test --fresh) runs every test, as .ci/nightly
 does. Where KAGE_DATA_DIR names other data the command runs as it is, without a stamp.
 """
 
 import argparse
+import contextlib
 import datetime
 import hashlib
 import os
@@ -28,6 +29,9 @@ import tempfile
 import time
 
 TOP = pathlib.Path(__file__).resolve().parent.parent
+# Scripts of tests run by these; which version of PyYAML there is decides what they read.
+PYTHON = "/usr/bin/python3 -c 'import sys, yaml; print(sys.version, yaml.__version__)'"
+MOST_DAYS = 90
 
 
 def cache():
@@ -54,8 +58,19 @@ def copied(globs, into):
 
 
 def version(command):
+    """Output of a command. One that fails says nothing of its tool, so no stamp can be told by it."""
     done = subprocess.run(command, shell=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
-    return done.stdout if done.returncode == 0 else f"exit code {done.returncode}".encode()
+    if done.returncode != 0:
+        sys.exit(f"stamped.py: {command}: exit code {done.returncode}")
+    return done.stdout
+
+
+def drop_old(folder):
+    """Stamps that no test has used for a while are of files that are gone."""
+    for stamp in folder.iterdir():
+        with contextlib.suppress(OSError):  # another test drops it too
+            if time.time() - stamp.stat().st_mtime > MOST_DAYS * 86400:
+                stamp.unlink()
 
 
 def key_of(options, command, tree, names):
@@ -71,7 +86,8 @@ def key_of(options, command, tree, names):
         part(f"file {os.access(tree / name, os.X_OK)}", name, (tree / name).read_bytes())
     for program in options.program:
         part("program", pathlib.Path(program).name, pathlib.Path(program).read_bytes())
-    for tool in options.tool:
+    part("python", "", f"{sys.version} {os.environ.get('PYTHONPATH', '')}".encode())
+    for tool in [PYTHON, *options.tool]:
         part("tool", tool, version(tool))
     for name in options.variable:
         part("variable", name, os.environ.get(name, "").encode())
@@ -109,16 +125,20 @@ def main():
         key = key_of(options, command, tree, names)
         stamp = cache() / key
         if not os.environ.get("KAGE_FRESH") and stamp.exists():
+            stamp.touch()
             print(f"not run again, for the same {len(names)} files, command and tools: {stamp.read_text().strip()}")
             return 0
         begin = time.monotonic()
         moved = [in_copy(word, tree, options.program) for word in command]
         code = subprocess.run(moved, check=False, env=os.environ | {"KAGE_DATA_DIR": str(tree)}).returncode
-        if code == 0:
+        if code != 0:
+            stamp.unlink(missing_ok=True)
+        else:
             stamp.parent.mkdir(parents=True, exist_ok=True)
             hidden = stamp.with_suffix(f".{os.getpid()}")
             hidden.write_text(f"passed on {datetime.date.today()} in {time.monotonic() - begin:.0f} s\n")
             hidden.replace(stamp)
+            drop_old(stamp.parent)
         return code
 
 

@@ -134,21 +134,21 @@ def c_texts(text):
 
 def hash_comments(text):
     for number, line in enumerate(text.splitlines(), 1):
-        if (found := re.match(r"(\s*)#(?!!)( ?)(.*)|.*?\s(#)( )([^\"'{}]*)$", line)) is None:
-            continue
-        if found[3] is not None:
+        if (found := re.match(r"(\s*)#(?!!)( ?)(.*)", line)) is not None:
             yield number, len(found[1]), found[3]
-        else:
-            yield number, found.start(4), found[6]
+        elif (found := re.match(r"""((?:[^"'#]|"(?:\\.|[^"\\])*"|'[^']*'|(?<=\S)#)*?\s)# (.*)$""", line)) is not None:
+            yield number, len(found[1]), found[2]
 
 
 def python_comments(text):
     before = tokenize.NEWLINE
     for token in tokenize.generate_tokens(io.StringIO(text).readline):
         if token.type == tokenize.COMMENT:
-            yield *token.start, re.sub(r"^#!?\s?", "", token.string)
+            if not token.string.startswith("#!"):
+                yield *token.start, re.sub(r"^#\s?", "", token.string)
         elif token.type == tokenize.STRING and before in (tokenize.NEWLINE, tokenize.INDENT, tokenize.NL):
             indent = token.start[1]
+            yield token.start[0], indent, ""  # a comment before it is another paragraph
             for more, part in enumerate(re.sub(r'^[rb]*("""|"|\')|("""|"|\')$', "", token.string).split("\n")):
                 yield token.start[0] + more, indent, part[indent:] if more else part
         if token.type not in (tokenize.COMMENT, tokenize.NL):
@@ -164,7 +164,7 @@ def paragraphs(path):
         yield from blocks(text.splitlines(), c_comments(text))
         if path.parts[0] == "cli":
             yield from ((line, part, True) for line, whole in c_texts(text) for part in whole.split("\n"))
-    elif path.suffix == ".py":
+    elif path.suffix == ".py" or text.startswith("#!/usr/bin/env python3"):
         yield from blocks(text.splitlines(), python_comments(text))
     else:
         yield from blocks(text.splitlines(), hash_comments(text))

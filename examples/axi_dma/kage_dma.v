@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kage_axi between two DMA engines: a frame comes from memory, its pixels go to memory, a processor has the registers of both.
 //
-// The core's parameters are those of kage_pack.vh, which `kage vectors` writes; a design of one's own has them at the instance.
+// The core's parameters are those of kage_pack.vh, which `kage vectors` writes. A design of one's own has them at the instance.
 // s_axil_core has the core's registers, s_axil_dma those of the DMA (kage_driver.h), each at an address that the interconnect of
 // the design gives it. Handshake, clock and reset are kage_axi's.
 `include "kage_pack.vh"

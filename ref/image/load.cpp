@@ -94,7 +94,7 @@ std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, i
   if (const std::uint64_t bytes = bytes_of_opening(path); bytes > 0)
     check_memory(fmt::format("{}: opening it takes", path.string()).c_str(), bytes, max_bytes);
   const ForeignCode mark(path.string() + ": reading it");
-  if (!has_module(PictureModule::kModule) && is_png(path)) return open_png(path, part);
+  if (!has_module(PictureModule::kModule) && is_png(path)) return open_png(path, part, max_bytes);
   return module_table<PictureModule>().open(path, part);
 }
 

@@ -4,9 +4,13 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
+#include <system_error>
+
+#include "kage/error.hpp"
 
 namespace kage {
 namespace {
@@ -37,6 +41,7 @@ PngChunks read_png_chunks(const std::filesystem::path& path) {
                              {"sRGB", 1, &found.intent},         {"cICP", 1, &found.more[0].second},
                              {"sBIT", 1, &found.more[1].second}, {"mDCV", 2, &found.more[2].second},
                              {"cLLI", 4, &found.more[3].second}};
+  if (!in) throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno)));
   if (!read(8) || std::memcmp(bytes.data(), "\x89PNG\r\n\x1a\n", 8) != 0) return found;
   while (read(8)) {
     const std::uint32_t size = number(bytes.data());

@@ -7,14 +7,17 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
 #include <memory>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
+#include "image/memory.hpp"
 #include "image/png_chunks.hpp"
 #include "kage/error.hpp"
 
@@ -23,12 +26,19 @@ namespace {
 
 constexpr std::size_t kSignature = 8;
 
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+
+File opened(const std::filesystem::path& path) {
+  File file(std::fopen(path.c_str(), "rb"), std::fclose);
+  if (!file) throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::generic_category().message(errno)));
+  return file;
+}
+
 /// libpng comes back from an error by longjmp(): the functions that call it hold nothing that has a destructor.
 class PngReader : public PictureReader {
  public:
-  PngReader(const std::filesystem::path& path, int part)
-      : name_(path.string()), file_(std::fopen(path.c_str(), "rb"), std::fclose) {
-    if (!file_) throw Error(fmt::format("{}: cannot be opened", name_));
+  PngReader(const std::filesystem::path& path, int part, std::optional<std::uint64_t> max_bytes)
+      : name_(path.string()), file_(opened(path)) {
     if (part > 0) fail(fmt::format("holds 1 picture, and there is no number {}", part));
     const PngChunks chunks = read_png_chunks(path);
     if (chunks.animated) fail("is animated: only files of one picture are compared");
@@ -40,6 +50,8 @@ class PngReader : public PictureReader {
     }
     try {
       call([&] { begin(); });
+      check_lines(max_bytes);
+      call([&] { png_read_update_info(png_, info_); });
       describe(chunks);
     } catch (...) {
       png_destroy_read_struct(&png_, &info_, nullptr);
@@ -82,7 +94,16 @@ class PngReader : public PictureReader {
     png_set_expand(png_);  // palettes, fewer bits than 8, and a transparent colour
     if (std::endian::native == std::endian::little) png_set_swap(png_);
     if (png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE) png_set_interlace_handling(png_);
-    png_read_update_info(png_, info_);
+  }
+
+  /// libpng has two lines, and an interlaced picture takes an array of all its lines. With a width of 2^31 - 1 that is
+  /// more than most machines have, in a file of some bytes.
+  void check_lines(std::optional<std::uint64_t> max_bytes) {
+    constexpr std::uint64_t kWidest = 8;  // bytes of a pixel: red, green, blue and alpha of 16 bits
+    own_bytes_ = 2 * kWidest * png_get_image_width(png_, info_);
+    if (png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE)
+      own_bytes_ += sizeof(png_bytep) * png_get_image_height(png_, info_);
+    check_memory(fmt::format("{}: its lines take", name_).c_str(), own_bytes_, max_bytes);
   }
 
   void describe(const PngChunks& chunks) {
@@ -101,7 +122,6 @@ class PngReader : public PictureReader {
     step_ = interlaced ? head_.height
                        : static_cast<int>(
                              std::clamp<std::uint64_t>(kStepBytes / std::max<std::uint64_t>(line_bytes(), 1), 1, 1024));
-    if (interlaced) own_bytes_ = line_bytes() * static_cast<std::uint64_t>(head_.height);
     note(chunks, wide ? 16 : 8);
   }
 
@@ -164,7 +184,7 @@ class PngReader : public PictureReader {
   static void on_warning(png_structp, png_const_charp) {}
 
   std::string name_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+  File file_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
   std::vector<png_bytep> rows_;  // of an interlaced picture, which comes as a whole
@@ -174,13 +194,14 @@ class PngReader : public PictureReader {
 }  // namespace
 
 bool is_png(const std::filesystem::path& path) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
+  const File file = opened(path);
   png_byte begin[kSignature] = {};
-  return file && std::fread(begin, 1, kSignature, file.get()) == kSignature && png_sig_cmp(begin, 0, kSignature) == 0;
+  return std::fread(begin, 1, kSignature, file.get()) == kSignature && png_sig_cmp(begin, 0, kSignature) == 0;
 }
 
-std::unique_ptr<PictureReader> open_png(const std::filesystem::path& path, int part) {
-  return std::make_unique<PngReader>(path, part);
+std::unique_ptr<PictureReader> open_png(const std::filesystem::path& path, int part,
+                                        std::optional<std::uint64_t> max_bytes) {
+  return std::make_unique<PngReader>(path, part, max_bytes);
 }
 
 }  // namespace kage

@@ -228,7 +228,10 @@ int run_all(std::vector<std::string> arguments) {
   std::vector<Result> results;
   for (const Mutant& m : mutants) {
     results.push_back(run(m, trials));
-    if (!markdown) print_row(results.back(), test_seed());
+    if (!markdown)
+      print_row(results.back(), test_seed());
+    else
+      fmt::print(stderr, "{}: {}\n", m.name, end_of(results.back(), test_seed()));
   }
   if (markdown) print_table(results);
 

@@ -56,6 +56,15 @@ runs 0 "after a file changed that it may not read"
 echo '#' >>tools/stamped.py
 runs 1 "after the runner changed"
 KAGE_FRESH=1 runs 1 "where nothing is taken"
+KAGE_FRESH=1 RESULT=1 runs 1 "where nothing is taken and it fails" 1
+runs 1 "after that: a failure ends a stamp"
+printf '#!/bin/sh\nexit 1\n' >"$temp/bin/a-tool"
+runs 0 "with a tool that tells no version" 1
+printf '#!/bin/sh\necho 1.1\n' >"$temp/bin/a-tool"
+touch -d '100 days ago' "$temp/cache/kage/stamps/"*
+KAGE_SHARD=5/6 runs 1 "for one more part"
+[ "$(find "$temp/cache/kage/stamps" -type f | wc -l)" = 1 ] || fail "stamps of long ago stay"
+runs 1 "after its stamp was dropped"
 rm other
 KAGE_DATA_DIR=/ runs 1 "where the data are elsewhere"
 runs 0 "with the same again"

@@ -44,7 +44,10 @@ expect a.py "\"\"\"What it gives is a span.\"\"\"\n" 1
 expect a.py "def f():\n    \"\"\"Of these the first.\"\"\"\n" 1
 expect a.py "# A $half\n# $half\n" 1
 expect a.py "a = \"What it gives is a span.\"\n" 0
+expect tool "#!/usr/bin/env python3\n\"\"\"What it gives is a span.\"\"\"\n" 1
 for file in a.sh a.cmake a.yaml; do
+  expect $file "a b # What it's made of\n" 1
+  expect $file "a 'b' \"c\" # What {it} is\n" 1
   expect $file "# What it gives\n# is a span.\n" 1
   expect $file "a b # Of these the first.\n" 1
   expect $file "a b \"# What it is\"\n" 0

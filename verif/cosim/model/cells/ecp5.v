@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells of ECP5 that yosys' synth_ecp5 leaves of the core, for `kage cosim --netlist ecp5`. Registers and memories have
-// no initial value: a simulator gives them X, or random bits. What an enable or a reset that is X may decide becomes X. A cell or a mode that is not here is an error of
+// no initial value: a simulator gives them X, or random bits. A value that an enable or a reset decides is X where that
+// is X. A cell or a mode that is not here is an error of
 // elaboration, in which a missing module's name says what it is.
 //
 // verif/test/cells holds each against yosys' own model where yosys has one, and against RTL that becomes such cells.
@@ -41,8 +42,8 @@ module L6MUX21 (
   assign Z = SD ? D1 : D0;
 endmodule
 
-// Two bits of a carry chain. A bit's LUT says by 1 that the carry goes through it and turns its sum; by 0 that the bit
-// makes a carry of its own, which the LUT's first quarter, of A and B, gives. INJECT1 leaves the carry before the bit out
+// Two bits of a carry chain. A bit's LUT says by 1 that the carry goes through it and turns its sum. By 0 it says
+// that the bit makes a carry of its own, which the LUT's first quarter, of A and B, gives. INJECT1 leaves the carry before the bit out
 // of its sum, and its own carry is 0.
 module CCU2C #(
     parameter [15:0] INIT0 = 16'h0000,

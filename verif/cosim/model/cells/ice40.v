@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The cells of iCE40 that yosys' synth_ice40 leaves of the core, for `kage cosim --netlist ice40`. Registers and memories
-// have no initial value: a simulator gives them X, or random bits. What an enable or a reset that is X may decide becomes X. A cell, a clock edge or a reset that is not here is an
+// have no initial value: a simulator gives them X, or random bits. A value that an enable or a reset decides is X where that
+// is X. A cell, a clock edge or a reset that is not here is an
 // error of elaboration.
 //
 // verif/test/cells holds each against yosys' own model, and against RTL that becomes such cells.
