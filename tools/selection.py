@@ -16,6 +16,7 @@ import functools
 import json
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -94,13 +95,20 @@ def room_of(file):
     return max((room for room in rooms.ABOVE if file.startswith(f"{room}/")), key=len, default=file)
 
 
+def listed_files(top):
+    """The files of a checkout. Where git is not, as in an archive, all but what builds and runs make."""
+    if shutil.which("git") and (top / ".git").exists():
+        return run("git", "-C", str(top), "ls-files", "-z", "--cached", "--others", "--exclude-standard").split("\0")
+    made = ("build", "out", ".git")
+    return [str(p.relative_to(top)) for p in top.rglob("*") if p.relative_to(top).parts[0] not in made]
+
+
 class Tree:
     """The files of a checkout, and which of them a file names."""
 
     def __init__(self, top=TOP):
         self.top = top
-        listed = run("git", "-C", str(top), "ls-files", "-z", "--cached", "--others", "--exclude-standard").split("\0")
-        self.files = {file for file in listed if (top / file).is_file()}
+        self.files = {file for file in listed_files(top) if (top / file).is_file()}
         self.cpp = {file for file in self.files if file.endswith(CPP)}
         self.modules = {pathlib.PurePath(file).stem: file for file in sorted(self.files) if file.endswith(SV[:1])}
         self.read = {}  # what each test reads, once it has been asked for

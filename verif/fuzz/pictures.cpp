@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures: the heads of all files, which kage itself looks at, and PNG and WebP as a whole. The rest is
 // OpenImageIO's.
+#include <zlib.h>
+
+#include <optional>
+
 #include "file/read_file.hpp"
 #include "fuzz/target.hpp"
 #include "image/module/lossless.hpp"
 #include "image/module/webp.hpp"
 #include "image/picture.hpp"
 #include "image/png_chunks.hpp"
+#include "image/png_reader.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
 
@@ -37,11 +42,38 @@ std::vector<std::string> head_seeds() {
           text({0, 1, 1, 0, 0, 1, 0, 32, 0, 0, 0, 0, 1, 0, 1, 0, 8, 0x28, 1, 2, 3, 4, 0})};
 }
 
+/// By kage's own reader; nothing where it refuses the file.
+std::optional<Picture> own_png(const std::filesystem::path& path) {
+  try {
+    const auto reader = open_png(path, -1, std::uint64_t{1} << 24);
+    if (reader->line_bytes() * static_cast<std::uint64_t>(reader->head().height) > std::uint64_t{1} << 20) return {};
+    return whole_picture(*reader);
+  } catch (const Error&) {
+    return {};
+  }
+}
+
 void run_png(Bytes bytes) {
-  const auto reader = open_picture(file_of("p.png", bytes));
+  const auto path = file_of("p.png", bytes);
+  const std::optional<Picture> own = own_png(path);
+  const auto reader = open_picture(path);
   if (reader->line_bytes() * static_cast<std::uint64_t>(reader->head().height) > std::uint64_t{1} << 20) return;
   const Picture picture = whole_picture(*reader);
   require(unlike(picture, picture).empty(), "a picture is like itself");
+  if (own && is_png(path)) require(own->data == picture.data, "both readers of PNG read the same");
+}
+
+/// A chunk of a PNG file.
+std::string chunk(const std::string& tag, const std::string& data) {
+  const auto number = [](std::uint32_t value) {
+    std::string text;
+    for (int shift = 24; shift >= 0; shift -= 8)
+      text += static_cast<char>(value >> static_cast<unsigned>(shift) & 255U);
+    return text;
+  };
+  const std::string body = tag + data;
+  const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(body.data()), body.size()));
+  return number(static_cast<std::uint32_t>(data.size())) + body + number(sum);
 }
 
 std::vector<std::string> png_seeds() {
@@ -51,6 +83,11 @@ std::vector<std::string> png_seeds() {
     save_image(path, Image(4, 3, channels));
     seeds.push_back(read_file(path));
   }
+  constexpr std::size_t kHead = 33;  // the signature, and IHDR
+  using namespace std::string_literals;
+  seeds.push_back(seeds[0]);
+  seeds.back().insert(
+      kHead, chunk("eXIf", "MM\0*\0\0\0\b\0\1\1\22\0\3\0\0\0\1\0\6\0\0\0\0\0\0"s) + chunk("gAMA", "\0\0\261\217"s));
   return seeds;
 }
 
