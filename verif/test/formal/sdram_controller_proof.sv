@@ -7,9 +7,9 @@
 //
 // How: by induction. run.sh connects inside_* to the registers of the controller and of the rules. The rules see a
 // command a clock after it was decided, so the lemmas compare what the rules count now with what the controller counted
-// a clock ago: that is never less. A refresh is on time because a sum is bounded: the clocks it is late by now, and those
-// until it comes in the worst case (to_go), which each clock lessens. Property 3 is carried from register to register:
-// accepted, decided, on the pins, in the chip, on its way back.
+// a clock ago: that is never less. A refresh is on time because a sum is bounded: the clocks it is late by now, and
+// those until it comes in the worst case (to_go), which each clock lessens. Property 3 is carried from register to
+// register: accepted, decided, on the pins, in the chip, on its way back.
 // The chip is one word, at an address that is any (marked); what the other words read as is free.
 //
 // Why small values say it for all: the controller counts down to 0 from the numbers and compares with nothing else, and
