@@ -21,8 +21,8 @@ for command in $commands; do
   grep -q "^Usage: kage $command " "$temp/stdout" || fail "kage help $command does not say how it is used"
   grep -q "^Examples:" "$temp/stdout" || fail "$command has no examples"
   # Options stand in groups; only --help is in none.
-  groups=$(grep -oE "^(Input|Picture|Core|Comparison|Run|Output|Options):$" "$temp/stdout" | tr -d '\n')
-  [[ Input:Picture:Core:Comparison:Run:Output:Options: =~ (^|:)${groups//:/:.*}$ && $groups == *:Options: ]] ||
+  groups=$(grep -oE "^(Input|Picture|Core|Limits|Comparison|Run|Output|Options):$" "$temp/stdout" | tr -d '\n')
+  [[ Input:Picture:Core:Limits:Comparison:Run:Output:Options: =~ (^|:)${groups//:/:.*}$ && $groups == *:Options: ]] ||
     fail "$command has groups $groups"
   [ "$(sed -n '/^Options:/,/^$/p' "$temp/stdout" | grep -c '^  -')" = 1 ] || fail "$command has options without a group"
   [ "$command" = help ] || grep -q -- --json "$temp/stdout" || fail "$command has no --json"
