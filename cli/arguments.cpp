@@ -20,8 +20,7 @@ namespace {
 
 constexpr auto kAny = [](const CLI::App*) { return true; };
 
-// ---- words of the definitions
-// ----------------------------------------------------------------------------------------
+// ---- words of the definitions ----
 
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
@@ -75,8 +74,7 @@ std::vector<OptionWords> words_of(const CLI::App& app) {
   return options;
 }
 
-// ---- help
-// ------------------------------------------------------------------------------------------------------------
+// ---- help ----
 
 /// The options in the groups of help_groups.hpp and in their order. Lines that are too long go on below the place where
 /// their text began.
@@ -110,8 +108,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 };
 
-// ---- faults
-// ----------------------------------------------------------------------------------------------------------
+// ---- faults ----
 
 std::vector<std::string> names_of_commands(const CLI::App& app) {
   std::vector<std::string> names;
@@ -223,8 +220,7 @@ Option grouped(CLI::Option* option) {
 
 ValueError::ValueError(const std::string& option, const std::string& fault) : Error(option + ": " + fault) {}
 
-// ---- options
-// ---------------------------------------------------------------------------------------------------------
+// ---- options ----
 
 Option Option::required(bool required) { return option_->required(required), *this; }
 Option Option::type_name(const std::string& type) { return option_->type_name(type), *this; }
@@ -253,8 +249,7 @@ bool Option::positional() const { return option_->get_positional(); }
 bool Option::flag() const { return option_->get_expected_max() == 0; }
 bool Option::takes_all() const { return option_->get_multi_option_policy() == CLI::MultiOptionPolicy::TakeAll; }
 
-// ---- commands
-// --------------------------------------------------------------------------------------------------------
+// ---- commands ----
 
 template <typename T>
 Option Command::add_option(const std::string& name, T& value, const std::string& about) {
@@ -310,8 +305,7 @@ template Option Command::add_option_function(Name, const std::function<void(cons
 template Option Command::add_option_function(Name, const std::function<void(const int&)>&, Name);
 template Option Command::add_option_function(Name, const std::function<void(const std::uint64_t&)>&, Name);
 
-// ---- the program
-// -----------------------------------------------------------------------------------------------------
+// ---- the program ----
 
 Program::Program(const std::string& about, const std::string& version, const std::string& footer)
     : app_(std::make_unique<CLI::App>(about, "kage")) {

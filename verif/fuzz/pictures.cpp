@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures: the heads of all files, which kage itself looks at, and PNG and WebP as a whole. The rest is
 // OpenImageIO's.
-#include <zlib.h>
-
 #include <optional>
 
 #include "file/read_file.hpp"
@@ -14,6 +12,7 @@
 #include "image/png_reader.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
+#include "stimulus/png_chunk.hpp"
 
 namespace kage::fuzz {
 namespace {
@@ -63,19 +62,6 @@ void run_png(Bytes bytes) {
   if (own && is_png(path)) require(own->data == picture.data, "both readers of PNG read the same");
 }
 
-/// A chunk of a PNG file.
-std::string chunk(const std::string& tag, const std::string& data) {
-  const auto number = [](std::uint32_t value) {
-    std::string text;
-    for (int shift = 24; shift >= 0; shift -= 8)
-      text += static_cast<char>(value >> static_cast<unsigned>(shift) & 255U);
-    return text;
-  };
-  const std::string body = tag + data;
-  const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(body.data()), body.size()));
-  return number(static_cast<std::uint32_t>(data.size())) + body + number(sum);
-}
-
 std::vector<std::string> png_seeds() {
   const auto path = file_of("seed.png", {});
   std::vector<std::string> seeds;
@@ -86,8 +72,8 @@ std::vector<std::string> png_seeds() {
   constexpr std::size_t kHead = 33;  // the signature, and IHDR
   using namespace std::string_literals;
   seeds.push_back(seeds[0]);
-  seeds.back().insert(
-      kHead, chunk("eXIf", "MM\0*\0\0\0\b\0\1\1\22\0\3\0\0\0\1\0\6\0\0\0\0\0\0"s) + chunk("gAMA", "\0\0\261\217"s));
+  seeds.back().insert(kHead, verif::png_chunk("eXIf", "MM\0*\0\0\0\b\0\1\1\22\0\3\0\0\0\1\0\6\0\0\0\0\0\0"s) +
+                                 verif::png_chunk("gAMA", "\0\0\261\217"s));
   return seeds;
 }
 

@@ -4,7 +4,6 @@
 #include "image/png_reader.hpp"
 
 #include <png.h>
-#include <zlib.h>
 
 #include <csetjmp>
 #include <cstdint>
@@ -18,6 +17,7 @@
 #include "../../support/temp_directory.hpp"
 #include "image/module/table.hpp"
 #include "kage/error.hpp"
+#include "stimulus/png_chunk.hpp"
 
 namespace kage {
 namespace {
@@ -108,19 +108,6 @@ TEST_CASE("every kind of PNG is read as the picture module reads it") {
         }
 }
 
-/// A chunk of a PNG file.
-std::string chunk(const std::string& tag, const std::string& data) {
-  const auto number = [](std::uint32_t value) {
-    std::string text;
-    for (int shift = 24; shift >= 0; shift -= 8)
-      text += static_cast<char>(value >> static_cast<unsigned>(shift) & 255U);
-    return text;
-  };
-  const std::string body = tag + data;
-  const auto sum = static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(body.data()), body.size()));
-  return number(static_cast<std::uint32_t>(data.size())) + body + number(sum);
-}
-
 TEST_CASE("chunks that say what values mean are told, and damaged ones do no harm") {
   using namespace std::string_literals;
   const test::TempDirectory temp;
@@ -139,27 +126,27 @@ TEST_CASE("chunks that say what values mean are told, and damaged ones do no har
   };
   const std::string big = "MM\0*\0\0\0\b\0\1\1\22\0\3\0\0\0\1\0\6\0\0\0\0\0\0"s;
   const std::string little = "II*\0\b\0\0\0\1\0\22\1\3\0\1\0\0\0\3\0\0\0\0\0\0\0"s;
-  with(chunk("gAMA", "\0\0\261\217"s) + chunk("sBIT", "\5\6\5"s));
+  with(verif::png_chunk("gAMA", "\0\0\261\217"s) + verif::png_chunk("sBIT", "\5\6\5"s));
   CHECK(note("gAMA") == "45455");
   CHECK(note("number of significant bits") == "5 6 5");
   CHECK(note("orientation") == "1");
   hold(path);
-  with(chunk("sRGB", "\2"s));
+  with(verif::png_chunk("sRGB", "\2"s));
   CHECK(note("rendering intent") == "2");
   for (const auto& [exif, orientation] : {std::pair{big, "6"}, {little, "3"}}) {
-    with(chunk("eXIf", exif));
+    with(verif::png_chunk("eXIf", exif));
     CHECK(note("orientation") == orientation);
     hold(path);
     for (std::size_t size = 0; size < exif.size(); ++size) {  // whatever is cut off
-      with(chunk("eXIf", exif.substr(0, size)));
+      with(verif::png_chunk("eXIf", exif.substr(0, size)));
       CHECK((note("orientation") == "1" || note("orientation") == orientation || note("orientation") == "0"));
     }
   }
-  with(chunk("eXIf", "MM\0*\377\377\377\377\0\1"s));  // entries at a place beyond the end
+  with(verif::png_chunk("eXIf", "MM\0*\377\377\377\377\0\1"s));  // entries at a place beyond the end
   CHECK(note("orientation") == "1");
-  with(chunk("acTL", "\0\0\0\2\0\0\0\0"s));
+  with(verif::png_chunk("acTL", "\0\0\0\2\0\0\0\0"s));
   CHECK_THROWS_WITH(open_png(path, -1), path + ": is animated: only files of one picture are compared");
-  with(chunk("iCCP", "name\0\0damaged"s));
+  with(verif::png_chunk("iCCP", "name\0\0damaged"s));
   CHECK_THROWS_WITH(open_png(path, -1), path + ": has an ICC profile that is damaged");
 }
 
@@ -169,8 +156,9 @@ TEST_CASE("a line that takes more memory than there may be is refused before it 
   const std::string path = (temp.path() / "wide.png").string();
   for (const std::string& interlaced : {"\0"s, "\1"s}) {
     std::ofstream(path, std::ios::binary | std::ios::trunc)
-        << "\x89PNG\r\n\x1a\n"s + chunk("IHDR", "\x7f\xff\xff\xff\x7f\xff\xff\xff\x10\x06\0\0"s + interlaced) +
-               chunk("IDAT", "x"s) + chunk("IEND", ""s);
+        << "\x89PNG\r\n\x1a\n"s +
+               verif::png_chunk("IHDR", "\x7f\xff\xff\xff\x7f\xff\xff\xff\x10\x06\0\0"s + interlaced) +
+               verif::png_chunk("IDAT", "x"s) + verif::png_chunk("IEND", ""s);
     try {
       (void)open_png(path, -1, std::uint64_t{1} << 30);
       FAIL("lines of 17 GB are made");
