@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,15 +34,6 @@ std::string differences(const Config& config) {
   return fmt::format("{}", fmt::join(values, " "));
 }
 
-/// Description of a fault: the second line of its patch.
-std::string about_fault(const std::string& name) {
-  std::ifstream patch(data_directory() / "verif/cosim/model/faults" / (name + ".patch"));
-  std::string line;
-  std::getline(patch, line);
-  std::getline(patch, line);
-  return line;
-}
-
 /// Description of a built-in scene, from its file. Most of the file stands behind it, and is not parsed.
 std::string about_scene(const std::string& name) {
   const std::filesystem::path path = data_directory() / "scenes" / (name + ".gltf");
@@ -70,7 +60,7 @@ int run(const ListCommand& o) {
       {"faults", "deliberate defects of the RTL, for --fault", {}}};
   for (const std::string& name : builtin_scenes()) groups[0].entries.push_back({name, about_scene(name)});
   for (const NamedConfig& named : named_configs()) groups[1].entries.push_back({named.name, differences(named.config)});
-  for (const std::string& name : cosim::fault_names()) groups[2].entries.push_back({name, about_fault(name)});
+  for (const cosim::Fault& fault : cosim::faults()) groups[2].entries.push_back({fault.name, fault.breaks});
 
   Json j = Json::object();
   std::string text;

@@ -241,7 +241,7 @@ void option_level(Command command, cosim::SourceOptions& options) {
 void option_fault(Command command, std::string& fault) {
   command
       .add_option("--fault", fault,
-                  "build the RTL with a deliberate defect, to see it found: a patch of verif/cosim/model/faults")
+                  "build the RTL with a deliberate defect, to see it found: a name that kage list faults prints")
       .type_name("NAME");
 }
 

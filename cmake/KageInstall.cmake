@@ -18,7 +18,8 @@ install(FILES ${PROJECT_BINARY_DIR}/kageConfig.cmake ${PROJECT_BINARY_DIR}/kageC
 install(DIRECTORY rtl scenes DESTINATION ${CMAKE_INSTALL_DATADIR}/kage)
 install(DIRECTORY verif/cosim/report/page DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/report)
 install(DIRECTORY verif/explore/page DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/explore)
-install(DIRECTORY verif/cosim/model/cells verif/cosim/model/driver verif/cosim/model/faults DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/model USE_SOURCE_PERMISSIONS)
+install(DIRECTORY verif/cosim/model/cells verif/cosim/model/driver DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/model USE_SOURCE_PERMISSIONS)
+install(FILES verif/cosim/model/faults.yaml DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/model)
 # A board in simulation: kage board --port sim:BOARD.
 install(DIRECTORY constraints/boards DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)
 install(FILES constraints/figures.json DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/constraints)

@@ -111,7 +111,7 @@ def cosim(kage, line, *more):
 
 def expected_module(mutant, config):
     """The module that is to be named (verif/mutants/list.hpp)."""
-    module = mutant.get("module", pathlib.Path(mutant["file"]).stem)
+    module = mutant.get("seen_by", pathlib.Path(mutant["file"]).stem)
     return ("pixel_banked" if config["ARRANGEMENT"] else "pixel_systolic") if module == "pixels" else module
 
 

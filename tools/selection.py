@@ -54,7 +54,7 @@ READERS = {
     "verif/mutants/*": ("mutants/*",),
     "verif/bench/*": ("contract/counted",),
     "verif/test/report/*": ("cli/report",),
-    "verif/cosim/model/faults/*": ("rtl/fault_*", "unit/cosim/faults"),
+    "verif/cosim/model/faults.yaml": ("rtl/fault_*", "unit/cosim/faults"),
     "verif/fuzz/*": ("fuzz/*",),
     "verif/test/formal/undecided_synchronizer.sv": ("formal/async_fifo",),
     "verif/test/package/*": ("package/*",),

@@ -57,6 +57,11 @@ class Table(ctypes.Structure):
     ]
 
 
+def defects(top):
+    """The command that knows the faults of the core."""
+    return [top / "verif/cosim/model/driver/defects.py", top / "verif/cosim/model/faults.yaml"]
+
+
 def sources_of(top):
     """The tree's files that git knows; in an unpacked archive, which git does not know, all but those of builds."""
     if (top / ".git").exists():
@@ -108,10 +113,7 @@ class Tree:
             (self.copy / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(top / name, self.copy / name)
         if fault:
-            patch = top / "verif/cosim/model/faults" / f"{fault}.patch"
-            if not patch.exists():
-                raise Trouble(f"--fault {fault}: no {patch}")
-            subprocess.run(["patch", "--quiet", "--fuzz=0", "--batch", "-p1", "-d", self.copy, "-i", patch], check=True)
+            subprocess.run([*defects(top), "put", fault, self.copy], check=True)
         driver = self.copy / "verif/cosim/model/driver/model.hpp"
         text = driver.read_text()
         constructor = re.search(r"explicit kage_rtl\(std::uint64_t seed\)[^{;]*\{\n", text)
@@ -246,7 +248,11 @@ class Record:
 
 def run(options):
     record = Record(options)
-    faults = options.fault or sorted(p.stem for p in (options.top / "verif/cosim/model/faults").glob("dead_*.patch"))
+    listed = subprocess.run([*defects(options.top), "list"], check=True, capture_output=True, text=True).stdout
+    listed = [line.split("\t")[0] for line in listed.splitlines()]
+    faults = options.fault or [name for name in listed if name.startswith("stub_")]
+    if not faults or not set(faults) <= set(listed):
+        raise Trouble(f"--fault {' '.join(faults)}: not all of them are in verif/cosim/model/faults.yaml")
     chosen = tests(options.build, options.tests)
     rows = []
     for fault in ["", *faults]:

@@ -38,7 +38,7 @@ class SimBoard : public Transport {
 };
 
 struct SimBoardOptions {
-  std::string fault;                   ///< a patch of verif/board/faults that the board is built with; empty: none
+  std::string fault;                   ///< of verif/board/faults.yaml, that the board is built with; empty: none
   std::optional<unsigned> other_baud;  ///< the host's rate, where it is not the board's
 };
 

@@ -21,7 +21,7 @@ std::vector<Mutant> load_mutants(const std::filesystem::path& file) {
       m.file = text("file");
       m.kind = text("class");
       m.breaks = text("breaks");
-      m.module = text("module");
+      m.module = text("seen_by");
       if (m.module.empty()) m.module = std::filesystem::path(m.file).stem().string();
       m.equivalent = text("equivalent");
       m.lives = text("lives");

@@ -15,7 +15,7 @@ namespace kage::verif {
 struct Mutant {
   int number = 0;
   std::string name;
-  std::string file;  ///< under rtl/
+  std::string file;  ///< from the source tree's root
   std::string kind;  ///< "flipped comparison"
   std::string breaks;
   std::string module;                ///< that must be named; "pixels": that of the arrangement

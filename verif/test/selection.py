@@ -35,7 +35,7 @@ EXAMPLES = (  # changed files, tests that they concern, tests that they do not
     ("rtl/board/uart_link.sv", "rtl/uart_link", "rtl/lane_ramp rtl/kage_top"),
     ("rtl/skid_buffer.sv", "formal/skid_buffer rtl/stream_cells", "rtl/tmds"),
     ("verif/test/formal/queue_rules.sv", "formal/skid_buffer formal/stream_fifo", "rtl/lane_ramp"),
-    ("verif/cosim/model/faults/lost_token.patch", "rtl/fault_lost_token unit/cosim/faults", "unit/order/ways"),
+    ("verif/cosim/model/faults.yaml", "rtl/fault_lost_token unit/cosim/faults", "unit/order/ways"),
     ("rtl/include/kage_pixel_next.svh", "rtl/elaborate_slang rtl/tb rtl/cells hls/proofs rtl/pixel_core", "rtl/uart"),
     ("rtl/ram_1r1w.sv", "gates/models_ice40 rtl/cells rtl/stream_cells", "rtl/tmds"),
     ("verif/cosim/model/cells/ecp5.v", "gates/models_ecp5", "rtl/tmds"),

@@ -8,7 +8,7 @@ usage: build_board.py BOARD CACHE [--fault NAME]
 
   BOARD         a board that has a simulation
   CACHE         the folder that libraries are kept in; one that is there already, of the same sources and tools, is not built again
-  --fault NAME  apply verif/board/faults/NAME.patch to a copy of the sources first
+  --fault NAME  put a fault of verif/board/faults.yaml into a copy of the sources
   --list        print the boards that have a simulation
   --core BOARD  print the parameters of the core that the board has in simulation, as a line of YAML: a pack for it is made
                 with them (kage vectors --config FILE)
@@ -34,7 +34,8 @@ import yaml
 TOP = pathlib.Path(__file__).resolve().parent.parent.parent.parent
 HERE = pathlib.Path("verif/board/sim")
 BOARDS = pathlib.Path("constraints/boards")
-FAULTS = pathlib.Path("verif/board/faults")
+FAULTS = TOP / "verif/board/faults.yaml"
+DEFECTS = TOP / "verif/cosim/model/driver/defects.py"
 # All that a board's library is made of. Paths are from the top of the source tree.
 PATTERNS = (
     "rtl/*.sv",
@@ -85,12 +86,7 @@ def build(work, name, board, fault, verilator, cxx, partial):
             copy = tree / source.relative_to(TOP)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source, copy)
-        run(
-            f"fault {fault}",
-            ["patch", "--fuzz=0", "--batch", "-p1", "-d", tree, "-i", TOP / FAULTS / f"{fault}.patch"],
-            log,
-            work,
-        )
+        run(f"fault {fault}", [DEFECTS, FAULTS, "put", fault, tree], log, work)
     simulation = board["simulation"]
     parameters = board["board"] | core_of(board) | simulation["board"]
     flags = "-fPIC -fvisibility=hidden -std=c++20 -O1 -DVL_USER_FINISH -DVL_USER_STOP -DVL_USER_FATAL -DVL_PRINTF=kage_board_printf"
@@ -171,12 +167,10 @@ def main():
     if args.core:
         print("{" + ", ".join(f"{n}: {v}" for n, v in core_of(boards[name]).items()) + "}")
         return
-    if args.fault and not (TOP / FAULTS / f"{args.fault}.patch").exists():
-        fail(f"{args.fault}: no {FAULTS / args.fault}.patch")
     verilator = shlex.split(os.environ.get("VERILATOR") or "verilator")
     cxx = shlex.split(os.environ.get("CXX") or "c++")
     key = hashlib.sha256((version(verilator) + version(cxx)).encode())
-    for source in sources() + ([TOP / FAULTS / f"{args.fault}.patch"] if args.fault else []):
+    for source in sources() + ([FAULTS, DEFECTS] if args.fault else []):
         key.update(str(source.relative_to(TOP)).encode() + b"\0" + hashlib.sha256(source.read_bytes()).digest())
     cache = pathlib.Path(args.cache)
     library = cache / f"{args.board}{'-' + args.fault if args.fault else ''}-{key.hexdigest()[:16]}.so"

@@ -22,7 +22,7 @@ struct Model {
 using BuildProgress = std::function<void(double seconds)>;
 
 struct ModelOptions {
-  std::string fault = {};  ///< a deliberate defect of verif/cosim/model/faults; empty for none
+  std::string fault = {};  ///< a name of faults(); empty for none
   bool monitors = false;   ///< with those of verif/cosim/diverge/monitors (slower)
   bool waves = false;      ///< able to write waveforms (slower)
   bool lines = false;      ///< counts how often each line and branch of the RTL runs (slower)
@@ -42,8 +42,14 @@ Model find_model(const Config& config, const ModelOptions& options = {});
 /// Whether find_model() would find it in the cache.
 bool has_model(const Config& config, const ModelOptions& options = {});
 
-/// The names that ModelOptions::fault takes, sorted.
-std::vector<std::string> fault_names();
+/// A deliberate defect of the core, of verif/cosim/model/faults.yaml.
+struct Fault {
+  std::string name;
+  std::string breaks;  ///< what it does, a sentence
+};
+
+/// The faults that ModelOptions::fault takes, sorted by name. Throws Error that names the list where it cannot be read.
+std::vector<Fault> faults();
 
 /// Names and versions of the tools that make models, a line each: "Verilator 5.006 2023-01-22 rev ...", "c++
 /// (Debian 12.2.0-14) 12.2.0".

@@ -118,21 +118,19 @@ std::vector<fs::path> files_of(const fs::path& data, const YAML::Node& roles, co
   return files;
 }
 
-/// The patch of a fault.
-fs::path fault_file(const fs::path& data, const YAML::Node& roles, const std::string& fault) {
-  for (const fs::path& file : files_of(data, roles, "fault"))
-    if (file.stem() == fault) return file;
-  const std::vector<std::string> names = fault_names();
-  throw Error(fmt::format("{}: no such fault{} (there are {})", fault, meant(fault, names), fmt::join(names, ", ")));
+YAML::Node yaml_of(const fs::path& file) {
+  try {
+    return YAML::Load(read_file(file));
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: {}", file.string(), e.what()));
+  }
 }
 
-YAML::Node roles_of(const fs::path& data) {
-  const fs::path list = data / "verif/cosim/model/driver/sources.yaml";
-  try {
-    return YAML::Load(read_file(list));
-  } catch (const YAML::Exception& e) {
-    throw Error(fmt::format("{}: {}", list.string(), e.what()));
-  }
+void check_fault(const std::string& fault) {
+  std::vector<std::string> names;
+  for (const Fault& f : faults()) names.push_back(f.name);
+  if (std::find(names.begin(), names.end(), fault) == names.end())
+    throw Error(fmt::format("{}: no such fault{} (there are {})", fault, meant(fault, names), fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -168,7 +166,7 @@ ModelTools model_tool_versions(const ModelOptions& options, bool anew) {
 }
 
 ModelSources model_sources(const fs::path& data, const ModelOptions& options) {
-  const YAML::Node roles = roles_of(data);
+  const YAML::Node roles = yaml_of(data / "verif/cosim/model/driver/sources.yaml");
   ModelSources sources{.files = {},
                        .modules = files_of(data, roles, "modules"),
                        .headers = files_of(data, roles, "headers"),
@@ -185,7 +183,10 @@ ModelSources model_sources(const fs::path& data, const ModelOptions& options) {
   if (options.monitors) add(files_of(data, roles, "monitors"));
   if (options.mutants) add(files_of(data, roles, "mutants"));
   if (!options.netlist.empty()) add(files_of(data, roles, "cells"));
-  if (!options.fault.empty()) sources.files.push_back(fault_file(data, roles, options.fault));
+  if (!options.fault.empty()) {
+    check_fault(options.fault);
+    add(files_of(data, roles, "faults"));
+  }
   std::sort(sources.files.begin(), sources.files.end());
   return sources;
 }
@@ -212,13 +213,17 @@ std::string model_key(const fs::path& data, const ModelSources& sources, const C
   return hash.take();
 }
 
-std::vector<std::string> fault_names() {
-  std::vector<std::string> names;
-  std::error_code ec;
-  for (const auto& entry : fs::directory_iterator(data_directory() / "verif/cosim/model/faults", ec))
-    if (entry.path().extension() == ".patch") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
+std::vector<Fault> faults() {
+  std::vector<Fault> all;
+  const fs::path list = data_directory() / "verif/cosim/model/faults.yaml";
+  try {
+    for (const YAML::Node& fault : yaml_of(list))
+      all.push_back({fault["name"].as<std::string>(), fault["breaks"].as<std::string>()});
+  } catch (const YAML::Exception& e) {
+    throw Error(fmt::format("{}: {}", list.string(), e.what()));
+  }
+  std::sort(all.begin(), all.end(), [](const Fault& a, const Fault& b) { return a.name < b.name; });
+  return all;
 }
 
 }  // namespace kage::cosim

@@ -8,7 +8,7 @@
 #   CONFIG  a name in rtl/defs/configs.yaml or constraints/cores.yaml
 #   SCENE   a built-in scene, whose first frame is drawn
 #   SIZE    of the frame, such as 64x48
-#   FAULT   of verif/cosim/model/faults: the RTL with this defect, which must be found; polite_ready is none, and must pass
+#   FAULT   of verif/cosim/model/faults.yaml: the RTL with this defect, which must be found; polite_ready is none, and must pass
 # Exit code 0: as it should be. 1: not. 77: cocotb is not installed.
 set -euo pipefail
 build=$1 work=$2 config=$3 scene=$4 size=$5 fault=${6:-}
@@ -25,7 +25,7 @@ rtl=$top/rtl
 if [ -n "$fault" ]; then
   cp -r "$top/rtl" "$work/rtl"
   rtl=$work/rtl
-  patch --fuzz=0 --batch --quiet -p2 -d "$rtl" -i "$top/verif/cosim/model/faults/$fault.patch"
+  "$top/verif/cosim/model/driver/defects.py" "$top/verif/cosim/model/faults.yaml" put "$fault" "$work"
 fi
 rc=0
 make -C "$top/examples/cocotb" WORK="$work" RTL="$rtl" KAGE="$build/bin/kage" CONFIG="$work/config.yaml" SCENE="$scene" SIZE="$size" >"$work/log" 2>&1 || rc=$?

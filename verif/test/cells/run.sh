@@ -42,15 +42,17 @@ play() { # CELLS
 }
 play "$cells" || fail "a model is not what it stands for"
 
-# ---- damage: each expression of sed changes exactly one line of the models, and a bench must fail by it ----
+# ---- damage: each defect of defects.yaml in the family's models, and a bench must fail by it ----
 n=0
 [ "${2:-}" = --damage ] || { echo "run.sh: $family: $(wc -w <<<"$modelled") cells as they should be"; exit 0; }
-while IFS= read -r change; do
-  [ -n "$change" ] || continue
-  sed -E "$change" "$cells" >"$work/damaged.v"
-  [ "$(diff "$cells" "$work/damaged.v" | grep -c '^>')" = 1 ] || fail "'$change' does not change exactly one line of $cells"
-  if said=$(play "$work/damaged.v"); then fail "damage '$change' is not found"; fi
-  grep -q "_tb: FAILED" <<<"$said" || fail "damage '$change' does not even compile: $said"
+defects=("$top/verif/cosim/model/driver/defects.py" "$here/defects.yaml")
+damaged=$work/verif/cosim/model/cells/$family.v
+mkdir -p "$(dirname "$damaged")"
+for name in $("${defects[@]}" list | cut -f1 | grep "^${family}_"); do
+  cp "$cells" "$damaged"
+  "${defects[@]}" put "$name" "$work"
+  if said=$(play "$damaged"); then fail "$name is not found"; fi
+  grep -q "_tb: FAILED" <<<"$said" || fail "$name does not even compile: $said"
   n=$((n + 1))
-done <"$here/$family.damage"
+done
 echo "run.sh: $family: $(wc -w <<<"$modelled") cells as they should be, $n of $n damages found"

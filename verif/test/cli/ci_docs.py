@@ -42,7 +42,7 @@ def example(name):
 def stubs():
     (root / "bin").mkdir(parents=True)
     patch = (
-        f"patch -s -d kage/share/kage -p1 <{source}/verif/cosim/model/faults/wrong_compare.patch"
+        f"{source}/verif/cosim/model/driver/defects.py {source}/verif/cosim/model/faults.yaml put wrong_compare kage/share/kage"
         if rtl == "broken"
         else ":"
     )

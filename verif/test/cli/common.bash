@@ -58,11 +58,14 @@ own_verdicts() {
 # data_copy FOLDER: a copy of the data that kage builds RTL models and pages from: RTL, scenes, drivers, monitors, faults, pages.
 data_copy() {
   local part
-  for part in rtl scenes verif/cosim/model/driver verif/cosim/model/faults verif/cosim/diverge/monitors verif/cosim/report/page verif/explore/page; do
+  for part in rtl scenes verif/cosim/model/driver verif/cosim/model/faults.yaml verif/cosim/diverge/monitors verif/cosim/report/page verif/explore/page; do
     mkdir -p "$(dirname "$1/$part")"
     cp -r "$source/$part" "$1/$part"
   done
 }
+
+# put_fault NAME FOLDER: puts a fault of verif/cosim/model/faults.yaml into a copy of the data.
+put_fault() { "$source/verif/cosim/model/driver/defects.py" "$source/verif/cosim/model/faults.yaml" put "$1" "$2" || fail "no fault $1 to put in"; }
 
 # list_without_widest FOLDER: a copy of the data whose list of configurations lacks widest. That one draws all that any core
 # can, so only without it there are scenes that no named configuration draws.

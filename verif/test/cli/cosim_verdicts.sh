@@ -147,7 +147,7 @@ json r.json "j['verdicts']['taken'] == 0"
 rm -rf data/rtl && cp -r "$source/rtl" data/
 cosim 0 5 0
 # A fault in the RTL itself, which no verdict of the sound RTL may hide; and none is kept of what differs.
-patch -s --no-backup-if-mismatch -p1 -d data -i "$source/verif/cosim/model/faults/wrong_compare.patch" || fail "no defect to put in"
+put_fault wrong_compare data
 for jobs in 1 2; do
   expect 1 "$kage" cosim "${run[@]}" --cache-verdicts --jobs $jobs --no-divergence --out out --json r.json
   json r.json "j['verdicts']['taken'] == 0 and j['verdicts']['cached'] and j['verdicts']['kept'] < 5"

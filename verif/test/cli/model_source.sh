@@ -12,9 +12,10 @@ export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
 CXXFLAGS=--no-such-flag OPT=--no-such-flag LDFLAGS=--no-such-flag MAKEFLAGS=n "$kage" model small.yaml >built 2>&1 &
 until compgen -G 'cache/kage/models/*.lock' >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.05; done
 [ -z "$(find cache -name '*.so')" ] || fail "the model was there before its sources could change"
-patch -s --no-backup-if-mismatch -p1 -d data -i "$source/verif/cosim/model/faults/wrong_compare.patch" || fail "no defect to put in"
+cp -r data/rtl sound
+put_fault wrong_compare data
 wait $! || fail "the model was not built: $(cat built)"
-patch -s --no-backup-if-mismatch -R -p1 -d data -i "$source/verif/cosim/model/faults/wrong_compare.patch"
+rm -r data/rtl && mv sound data/rtl
 expect 0 "$kage" cosim s.kage --no-report --out out
 [ "$(find cache -name '*.so' | wc -l)" = 1 ] || fail "the sources are as they were, and there are these models: $(find cache -name "*.so")"
 
@@ -29,7 +30,7 @@ there() {
   [ $rc = 0 ] || grep -q 'the build failed: python3 runs' said || fail "$1 changes, and: $(cat said)"
   return $rc
 }
-for file in rtl/defs/stages.yaml rtl/defs/configs.yaml verif/cosim/diverge/monitors/tree_core_monitor.sv verif/cosim/model/faults/tree_tie.patch; do
+for file in rtl/defs/stages.yaml rtl/defs/configs.yaml verif/cosim/diverge/monitors/tree_core_monitor.sv verif/cosim/model/faults.yaml; do
   there $file || fail "another $file asks for another model"
 done
 for file in rtl/ram_1r1w.sv rtl/include/kage_illegal.svh rtl/include/generated/kage_widths.svh rtl/defs/kage.yaml \

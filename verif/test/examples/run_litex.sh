@@ -35,19 +35,15 @@ else:
     sys.exit(1)
 PY
 
-# defect NAME PATTERN FILE EDIT: the example with this edit (of sed) in a file of it, or of the RTL, must tell so.
-defect() {
-  local name=$1 pattern=$2 file=$3 edit=$4 folder=defect_$1
-  mkdir "$folder"
-  cp "$source"/examples/litex/*.py "$folder"
-  cp -r "$source/rtl" "$folder/rtl"
-  cp "$folder/$file" before
-  sed -i "$edit" "$folder/$file"
-  if cmp -s before "$folder/$file"; then fail "$name: nothing was edited"; fi
-  expect 1 /usr/bin/python3 "$folder/sim.py" --work "build_$name" --rtl "$folder/rtl" --pack sound/pack
+# Each defect is in a copy of the example and the RTL, which must tell it.
+defects=("$source/verif/cosim/model/driver/defects.py" "$source/verif/test/examples/defects.yaml")
+while IFS=$'\t' read -r name pattern _ <&3; do
+  [[ $name == litex_* ]] || continue
+  mkdir -p "$name/examples/litex"
+  cp "$source"/examples/litex/*.py "$name/examples/litex"
+  cp -r "$source/rtl" "$name"
+  "${defects[@]}" put "$name" "$name" || fail "$name: is no change of the example"
+  expect 1 /usr/bin/python3 "$name/examples/litex/sim.py" --work "build_$name" --rtl "$name/rtl" --pack sound/pack
   grep -m 1 -E "$pattern" stdout | sed "s/^/$name: /" | grep . || { fail "$name: is not told"; cat stdout; }
-}
-defect compare '^different: frame 0, line [0-9]+, x [0-9]+: expected ' rtl/include/kage_pixel_next.svh 's/in_front = z < /in_front = z > /'
-defect address '^different: PARAM_HASH: expected ' kage_litex.py 's/self.bus.ar.addr\[:8\]/self.bus.ar.addr[:3]/'
-defect interrupt '^different: nothing moves at step ' kage_litex.py 's/core.trigger.eq(irq)/core.trigger.eq(0)/'
+done 3< <("${defects[@]}" list)
 done_testing

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs the proofs that verif/test/formal/proofs.bash lists, and its defects, which show that each property can fail.
+# Runs the proofs of verif/test/formal/proofs.bash, and the defects of defects.yaml, which show that each property can fail.
 #
 # usage: verif/test/formal/run.sh [--proofs] [MODULE|UNITS]...      (default: all modules, compare_tree of 2 3 4 5 units)
 #   --proofs the proofs alone: defects take longer
@@ -30,7 +30,7 @@ here=verif/test/formal
 
 # ---- the tables of proofs.bash ---------------------------------------------------------------------------------------
 proofs=() defects=()
-declare -A of # [NAME.KEY]: what proof and defect were told
+declare -A of # [NAME.KEY]: what proofs and defects are made of
 proof() { # NAME KEY=VALUE...
   local name=$1 pair
   shift
@@ -39,25 +39,22 @@ proof() { # NAME KEY=VALUE...
   for pair in "$@"; do of[$name.${pair%%=*}]=${pair#*=}; done
   : "${of[$name.top]:=${of[$name.module]}_proof}"
 }
-defect() { # NAME PROOF FILE SED-EXPRESSION
-  defects+=("$1")
-  of[$1.proof]=$2 of[$1.file]=$3 of[$1.expression]=$4
-}
 . "$here/proofs.bash"
+with_defects=(verif/cosim/model/driver/defects.py "$here/defects.yaml")
+listed=$("${with_defects[@]}" list) || exit 2
+while IFS=$'\t' read -r name proof file; do
+  defects+=("$name")
+  of[$name.proof]=$proof of[$name.file]=$file
+done <<<"$listed"
 
 # ---- mechanics -------------------------------------------------------------------------------------------------------
 bad=0
 declare -A stated refuted # [MODULE:PROPERTY]
 
-translate() { # PROOF NAME [FILE]: the proof for the solver, $work/NAME.smt2, with the RTL's FILE, a module or a header, taken from $work
-  local proof=$1 name=$2 changed=${3:-} rtl=() own=() word script headers=rtl/include clocks=$one_clock
+translate() { # PROOF NAME RTL: the proof for the solver, $work/NAME.smt2, of the RTL in this folder
+  local proof=$1 name=$2 rtl=() own=() word script headers=$3/include clocks=$one_clock
   local top=${of[$proof.top]}
-  for word in ${of[$proof.rtl]}; do
-    if [ "$word.sv" = "$changed" ]; then rtl+=("$work/$word.sv"); else rtl+=("rtl/$word.sv"); fi
-  done
-  # Headers include each other by where they lie: one that is changed has all others beside it.
-  if [[ $changed == include/* ]]; then headers=$work/include; fi
-  [[ -z $changed || $changed == include/* || " ${rtl[*]} " == *" $work/$changed "* ]] || { echo "run.sh: $name: $proof reads no $changed" >&2; exit 2; }
+  for word in ${of[$proof.rtl]}; do rtl+=("$3/$word.sv"); done
   for word in ${of[$proof.rules]} "$top"; do
     if [ -e "$here/$word.sv" ]; then own+=("$here/$word.sv"); else own+=("constraints/boards/sim/$word.sv"); fi
   done
@@ -91,7 +88,7 @@ solve() { # NAME OPTION...: by yosys-smtbmc; --presat refuses assumptions that c
 properties() { sed -E '/(^|\.)lemma_|[:$]/d' | sort -u; }
 run_proof() { # NAME: base case or bound, induction, covers
   local name=$1 start=$SECONDS how="to a depth of ${of[$1.steps]} clocks" property
-  translate "$name" "$name"
+  translate "$name" "$name" rtl
   while read -r property; do stated[${of[$name.module]}:$property]=1; done \
     < <(sed -n 's/^; yosys-smt2-assert [0-9]* //p' "$work/$name.smt2" | properties)
   [ -z "${of[$name.induction]}" ] || how="by induction"
@@ -106,10 +103,11 @@ run_proof() { # NAME: base case or bound, induction, covers
 }
 run_defect() { # NAME: the proof must refute it from reset on; that it is not proved would not do
   local name=$1 proof=${of[$1.proof]} file=${of[$1.file]} start=$SECONDS failed found property
-  rm -rf "$work/include" && cp -r rtl/include "$work" && mkdir -p "$(dirname "$work/$file")"
-  sed "${of[$name.expression]}" "rtl/$file" >"$work/$file"
-  if cmp -s "$work/$file" "rtl/$file"; then echo "run.sh: $name: changes nothing" >&2; exit 2; fi
-  translate "$proof" "$name" "$file"
+  file=${file#rtl/}
+  [[ $file == include/* || " ${of[$proof.rtl]} " == *" ${file%.sv} "* ]] || { echo "run.sh: $name: $proof reads no $file" >&2; exit 2; }
+  rm -rf "$work/rtl" && cp -r rtl "$work"
+  "${with_defects[@]}" put "$name" "$work" || exit 2
+  translate "$proof" "$name" "$work/rtl"
   if solve "$name" -t "${of[$proof.defect_steps]:-${of[$proof.steps]}}" --keep-going; then :; fi
   grep -qi "Status: \(passed\|failed\)" "$work/$name.said" || { echo "run.sh: $name: the solver gave no answer" >&2; exit 2; }
   failed=$(sed -n 's/.*Assert failed in [^:]*: //p' "$work/$name.said" | sed 's/ .*//')

@@ -101,7 +101,7 @@ struct SourceOptions {
 
 /// How the RTL is run.
 struct RtlRun {
-  std::string fault;     ///< a deliberate defect of verif/cosim/model/faults; empty: none
+  std::string fault;     ///< a deliberate defect of verif/cosim/model/faults.yaml; empty: none
   std::string netlist;   ///< ice40 or ecp5: the cells that yosys makes of the RTL run in its place
   int mutant = 0;        ///< from 1: a defect of verif/mutants; 0: none
   int idle = 0;          ///< 0 to 95 percent of clocks at random in which no input is offered

@@ -6,7 +6,7 @@
 usage: build.py OUT.so [PARAM=VALUE...] [--fault NAME] [--define NAME[=VALUE]] [--monitors] [--waves] [--mutants] [--lines] [--ports MODULE] [--netlist FAMILY] [--quick] [--jobs N] [--keep DIR]
 
   PARAM=VALUE    a parameter of rtl/defs/kage.yaml; those left out have their default there
-  --fault NAME   apply verif/cosim/model/faults/NAME.patch to a copy of the RTL first; a patch that does not apply stops the build
+  --fault NAME   put a fault of verif/cosim/model/faults.yaml into a copy of the RTL; one whose text the RTL has not exactly once stops the build
   --define       a macro for Verilator
   --monitors     with the monitors of verif/cosim/diverge/monitors, which tell what passes between modules
   --waves        able to write waveforms
@@ -34,6 +34,7 @@ import signal
 import subprocess
 import tempfile
 
+import defects
 import netlist
 import ports
 from initial_state import name_initial_state
@@ -46,7 +47,6 @@ from sources import HERE, PATTERNS, RTL, TOP, files, only, places
 from steps import Log, end_all, fail, run, without_blanks
 
 FROM_VERILATOR = HERE / "from_verilator.hpp"
-FAULTS = only("fault").parent
 # Flags with which every part is compiled. Text that the RTL writes goes through the driver. The header is copied, so
 # that these flags are the same in every source tree.
 CFLAGS = f"-fPIC -fvisibility=hidden -DVL_USER_STOP -DVL_PRINTF=kage_printf -include {FROM_VERILATOR.name}"
@@ -77,8 +77,8 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep")
     args = parser.parse_intermixed_args()
-    if args.fault and not (FAULTS / f"{args.fault}.patch").exists():
-        fail(f"{args.fault}: no {FAULTS / (args.fault + '.patch')}")
+    if args.fault and args.fault not in defects.load(only("faults")):
+        fail(f"{args.fault}: not in {only('faults')}")
     if not args.out:
         fail("no OUT.so given")
     if args.netlist and (args.mutants or args.ports):
@@ -131,8 +131,10 @@ class Build:
         shutil.rmtree(self.rtl, ignore_errors=True)
         shutil.copytree(RTL, self.rtl)
         if self.args.fault:
-            patch = ["patch", "--fuzz=0", "--batch", "-p2", "-d", self.rtl, "-i", FAULTS / f"{self.args.fault}.patch"]
-            run(f"fault {self.args.fault}", patch, self.log)
+            try:
+                defects.put_in(defects.load(only("faults"))[self.args.fault], self.work)
+            except defects.DefectError as e:
+                fail(f"fault {self.args.fault}: {e}")
         if self.args.mutants:
             self.mutants = put_in(self.rtl, self.work / "kage_mutants.sv")
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The co-simulation can say no, and at the right pixel: frames made by hand, in which each defect of
-// verif/cosim/model/faults can show first in one known place, go through RTL with the defect. The sound RTL passes the
-// same frames.
+// verif/cosim/model/faults.yaml can show first in one known place, go through RTL with the defect. The sound RTL passes
+// the same frames.
 #include <algorithm>
 #include <functional>
 #include <set>

@@ -1,0 +1,108 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Every deliberate defect is a change of files that are here, and names what must see it.
+
+usage: defect_lists.py SOURCE BUILD      BUILD: a build folder with tests
+"""
+
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+SOURCE, BUILD = (pathlib.Path(a).resolve() for a in sys.argv[1:])
+sys.dont_write_bytecode = True
+sys.path[:0] = [str(SOURCE / "verif/cosim/model/driver"), str(SOURCE / "tools")]
+import defects  # noqa: E402
+import mutants  # noqa: E402
+import selection  # noqa: E402
+
+FORMAL = SOURCE / "verif/test/formal"
+PROOFS = 'proof() { echo "$1"; }; . verif/test/formal/proofs.bash'
+tests = {test["name"] for test in selection.listed(BUILD)}
+proofs = set(
+    subprocess.run(["bash", "-c", PROOFS], cwd=SOURCE, capture_output=True, text=True, check=True).stdout.split()
+)
+modules = {"pixels"} | {file.stem for file in (SOURCE / "rtl").glob("*.sv")}
+
+# The lists, the keys that each has of its own, and the names that seen_by may have: no name where one test sees the whole list,
+# None where seen_by is any text.
+LISTS = {
+    "verif/cosim/model/faults.yaml": ((), tests),
+    "verif/board/faults.yaml": ((), set()),
+    "verif/mutants/mutants.yaml": (mutants.KEYS, modules),
+    "verif/test/rtl/board_mutants.yaml": ((), tests),
+    "verif/test/formal/defects.yaml": ((), proofs),
+    "verif/test/cells/defects.yaml": ((), set()),
+    "verif/test/examples/defects.yaml": ((), None),
+}
+NAMED = {"verif/cosim/model/faults.yaml", "verif/test/rtl/board_mutants.yaml", "verif/test/formal/defects.yaml"}
+
+# Lists that must be refused, with words of why; the file is rtl/skid_buffer.sv.
+SOUND = "name: a, file: rtl/skid_buffer.sv, was: 'module skid_buffer', is: ''"
+REFUSED = {
+    "[{file: f, was: a, is: b}]": "without a name",
+    f"[{{{SOUND}}}, {{{SOUND}}}]": "two defects a",
+    f"[{{{SOUND}, text: x}}]": "unknown keys text",
+    f"[{{{SOUND}, changes: []}}]": "either",
+    "[{name: a}]": "either",
+    "[{name: a, file: f, was: x}]": "lacks is",
+    "[{name: a, changes: [{file: f, is: x}]}]": "lacks was",
+    f"[{{{SOUND}, lives: x, named: y}}]": "more than one",
+    "[{name: a, file: rtl/skid_buffer.sv, was: out_valid_q, is: x}]": "not exactly once: out_valid_q",
+    "[{name: a, file: rtl/skid_buffer.sv, was: no such text, is: x}]": "not exactly once: no such text",
+    f"[{{{SOUND}, in: module}}]": "not exactly once: module",
+}
+
+bad = []
+
+
+def try_list(path, keys):
+    """The defects of a list, each put into the texts of its files."""
+    listed = defects.load(path, keys)
+    for defect in listed.values():
+        texts = {}
+        for change in defects.changes(defect):
+            file = SOURCE / change["file"]
+            text = texts.get(file) or file.read_text()
+            begin = defects.place(text, change)
+            texts[file] = text[:begin] + change["is"] + text[begin + len(change["was"]) :]
+            if change["is"] == change["was"]:
+                raise defects.DefectError(f"{path}: {defect['name']} changes nothing")
+    return listed
+
+
+with tempfile.TemporaryDirectory() as temp:
+    for text, why in REFUSED.items():
+        example = pathlib.Path(temp) / "example.yaml"
+        example.write_text(text)
+        try:
+            try_list(example, ())
+            bad.append(f"defects.py takes {text}")
+        except defects.DefectError as e:
+            if why not in str(e):
+                bad.append(f"defects.py says of {text}: {e}")
+
+    total = 0
+    for path, (keys, seers) in LISTS.items():
+        try:
+            listed = try_list(SOURCE / path, keys)
+        except (defects.DefectError, OSError) as e:
+            bad.append(f"{path}: {e}")
+            continue
+        total += len(listed)
+        for name, defect in listed.items():
+            seer = defect.get("seen_by")
+            if (seer is None and path in NAMED) or (None not in (seer, seers) and seer not in seers):
+                bad.append(f"{path}: {name}: seen_by {seer}: there is none of that name")
+
+    # All mutants together, behind their select.
+    copy = pathlib.Path(temp) / "rtl"
+    shutil.copytree(SOURCE / "rtl", copy)
+    if mutants.put_in(copy, pathlib.Path(temp) / "package.sv") < 100:
+        bad.append("verif/mutants/mutants.yaml: there are few of them")
+
+print(*bad, sep="\n", file=sys.stderr, end="\n" if bad else "")
+print(f"{total} defects of {len(LISTS)} lists are changes of files that are here, and {len(REFUSED)} lists are refused")
+sys.exit(1 if bad else 0)
