@@ -139,7 +139,9 @@ void print_table(const std::vector<Result>& results) {
                                                                : "equivalent");
   }
   fmt::print("| of `rtl/` | mutants | killed | named right | the others |\n|---|---|---|---|---|\n");
-  for (const Row& r : rows) fmt::print("| {} | {} | {} | {} | {} |\n", r.file, r.mutants, r.killed, r.right, r.others);
+  for (const Row& r : rows)
+    fmt::print("| {} | {} | {} | {} | {} |\n", std::filesystem::path(r.file).lexically_relative("rtl").string(),
+               r.mutants, r.killed, r.right, r.others);
 }
 
 /// Throws Error if a mutant asks for a configuration that there is not: it would be tried nowhere.
