@@ -48,7 +48,7 @@ std::array<Json, kShards> reports(int wrong = -1) {
   return all;
 }
 
-/// What read_shards() says of these texts, as files 1.json, 2.json ...: nothing if it takes them.
+/// The refusal by read_shards() of these texts, as files 1.json, 2.json ...; empty if it takes them.
 std::string said(const std::vector<std::string>& texts) {
   const TempDirectory dir;
   std::vector<std::string> files;
