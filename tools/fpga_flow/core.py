@@ -2,6 +2,7 @@
 """Which core is meant: device, configuration and parameters from the command line and the YAML files."""
 
 import dataclasses
+import functools
 import pathlib
 
 import yaml
@@ -28,7 +29,9 @@ class Core:
         return self.parameters["Z_BITS"] + self.parameters["Z_FRAC"]
 
 
+@functools.cache
 def read_yaml(path):
+    """The contents of a file, which nobody may change: who asks again gets the same."""
     try:
         return yaml.safe_load(path.read_text()) or {}
     except OSError as e:

@@ -41,7 +41,7 @@ def example(name):
 
 def stubs():
     (root / "bin").mkdir(parents=True)
-    patch = (
+    defect = (
         f"{source}/verif/cosim/model/driver/defects.py {source}/verif/cosim/model/faults.yaml put wrong_compare kage/share/kage"
         if rtl == "broken"
         else ":"
@@ -49,7 +49,7 @@ def stubs():
     build = kage.parent.parent
     for name, text in {
         "apt-get": "exit 0",
-        "cmake": f'if [ "$1" = --install ]; then {real_cmake} --install {build} --prefix "$4" >/dev/null; {patch}; fi',
+        "cmake": f'if [ "$1" = --install ]; then {real_cmake} --install {build} --prefix "$4" >/dev/null; {defect}; fi',
     }.items():
         file = root / "bin" / name
         file.write_text(f"#!/bin/sh\nset -e\n{text}\n")

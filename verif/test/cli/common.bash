@@ -11,6 +11,9 @@ failures=0
 # No lines of progress: their number depends on how slow the machine is.
 export KAGE_PROGRESS=0
 
+# Debian's, whatever the person at the machine has in front of it: a chooser of versions takes longer than what it starts.
+python3() { /usr/bin/python3 "$@"; }
+
 fail() {
   echo "FAILED: $*"
   failures=$((failures + 1))
