@@ -161,9 +161,13 @@ void print(const Options& o, const Json& j) {
 
 int describe_scene(const Options& o) {
   const Scene scene = cosim::load_scene(o.input, o, terminal(), 1);
-  const SceneFrame frame = scene.frame(0, scene.frame_count());
-  Json j = contents_of(scene, frame);
-  add_configurations(o, scene, frame, j);
+  Json j;
+  {
+    const EndsAtOnce nothing_is_written;
+    const SceneFrame frame = scene.frame(0, scene.frame_count());
+    j = contents_of(scene, frame);
+    add_configurations(o, scene, frame, j);
+  }
   check_interrupt();
   write_json(o.json, {"kage.info-scene/1", j});
   if (!json_only(o.json)) print(o, j);

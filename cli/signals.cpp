@@ -4,16 +4,23 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <string_view>
 
 namespace kage::cli {
 namespace {
 
 volatile std::sig_atomic_t signalled = 0;  // the number of the first signal
+volatile std::sig_atomic_t at_once = 0;    // there is an EndsAtOnce
 
 // The second signal ends the program wherever it waits, in destructors and exit handlers too. The next run removes the
 // files that it leaves in hidden folders, and its children die with it.
 void on_signal(int number) {
   if (signalled != 0) _exit(kSignalled + number);
+  if (at_once != 0) {
+    constexpr std::string_view kText = "kage: interrupted\n";
+    if (write(STDERR_FILENO, kText.data(), kText.size()) < 0) _exit(kSignalled + number);
+    _exit(kSignalled + number);
+  }
   signalled = number;
 }
 
@@ -37,6 +44,13 @@ void catch_signals() {
 bool interrupted() { return signalled != 0; }
 
 int interrupted_code() { return kSignalled + signalled; }
+
+EndsAtOnce::EndsAtOnce() {
+  at_once = 1;
+  check_interrupt();  // one that came before
+}
+
+EndsAtOnce::~EndsAtOnce() { at_once = 0; }
 
 void check_interrupt() {
   if (interrupted()) throw Interrupted{};

@@ -17,6 +17,17 @@ bool interrupted();
 /// The exit code after such a signal: 130 for SIGINT, 143 for SIGTERM, 129 for SIGHUP.
 int interrupted_code();
 
+/// While one is there nothing is half done, and the first signal ends the program at once: for work that asks no flag
+/// and writes nothing.
+class EndsAtOnce {
+ public:
+  /// Throws Interrupted if a signal has come already.
+  EndsAtOnce();
+  ~EndsAtOnce();
+  EndsAtOnce(const EndsAtOnce&) = delete;
+  EndsAtOnce& operator=(const EndsAtOnce&) = delete;
+};
+
 using cosim::Interrupted;
 
 /// Throws Interrupted if the flag is set.

@@ -80,8 +80,8 @@ void kage_trace(int stage, int unit, const svBitVecVal* values) {
 void kage_trace_part(int part, const svBitVecVal* expected, const svBitVecVal* actual) {
   int i = 0;
   while (i < 14 && expected[i] == actual[i] && expected[i + 1] == actual[i + 1]) i += 2;
-  const svBitVecVal values[2 * KAGE_RTL_EVENT_VALUES] = {static_cast<svBitVecVal>(part), 0,         expected[i],
-                                                         expected[i + 1],                actual[i], actual[i + 1]};
+  const svBitVecVal values[2 * KAGE_RTL_EVENT_VALUES] = {
+      static_cast<svBitVecVal>(part), 0, expected[i], expected[i + 1], actual[i], actual[i + 1]};
   kage_trace(KAGE_STAGE_PART, 0, values);
 }
 #endif
