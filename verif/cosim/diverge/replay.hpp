@@ -17,7 +17,7 @@ namespace kage::cosim {
 
 /// How frames are run again.
 struct ReplayOptions {
-  std::filesystem::path library;  ///< of a model: with monitors for a search, for waveforms for a waveform
+  std::filesystem::path library;  ///< of a model: with monitors for a search, with waves for a waveform
   RtlOptions rtl;
   FrameSteps steps;            ///< which frames the run had
   std::function<void()> wait;  ///< called now and then; may throw, which ends the replay

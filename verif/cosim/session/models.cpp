@@ -50,18 +50,19 @@ RtlOptions rtl_options(const RtlRun& rtl, std::uint64_t seed) {
 Model model_of(const NamedConfig& config, const RtlRun& rtl, Host& host, ModelFor what, const std::string& ports) {
   tell_other_rtl(host);
   const std::unique_ptr<Progress> progress = host.progress();
-  const bool monitors = what == ModelFor::kMonitors;
-  const bool waves = what == ModelFor::kWaveforms;
+  const bool monitors = what == ModelFor::kMonitors || what == ModelFor::kSearch;
+  const bool waves = what == ModelFor::kWaveforms || what == ModelFor::kSearch;
   const bool lines = what == ModelFor::kLines;
   if (!rtl.netlist.empty() && rtl.mutant != 0)
     throw Error("--mutant: a mutant is chosen within a model of the RTL: not with --netlist (--fault is built in)");
   const std::string name = fmt::format("the {} of configuration {}{}",
                                        rtl.netlist.empty() ? "RTL model" : rtl.netlist + " netlist", config.name,
-                                       monitors         ? " with monitors"
-                                       : waves          ? " for waveforms"
-                                       : lines          ? " that counts lines"
-                                       : !ports.empty() ? " with ports"
-                                                        : "");
+                                       monitors && waves ? " with monitors and waveforms"
+                                       : monitors        ? " with monitors"
+                                       : waves           ? " for waveforms"
+                                       : lines           ? " that counts lines"
+                                       : !ports.empty()  ? " with ports"
+                                                         : "");
   const ModelOptions options{.fault = rtl.fault,
                              .monitors = monitors,
                              .waves = waves,

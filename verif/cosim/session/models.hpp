@@ -17,8 +17,9 @@ namespace kage::cosim {
 /// How such a run drives the RTL: its stalls, its mutant and, by the seed, when it stalls.
 RtlOptions rtl_options(const RtlRun& rtl, std::uint64_t seed);
 
-/// The use of a model besides pixels.
-enum class ModelFor { kPixels, kMonitors, kWaveforms, kLines };
+/// The use of a model besides pixels. kSearch: the search for a divergence and then its waveform, by one model, which
+/// takes less time to build than two.
+enum class ModelFor { kPixels, kMonitors, kWaveforms, kSearch, kLines };
 
 /// The model of a configuration; says how long it takes where it has to be built. Says too, once in the program's life,
 /// if the current folder is of a tree with another rtl/ than the model's. `ports`: ModelOptions::ports.

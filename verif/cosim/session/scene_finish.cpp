@@ -45,10 +45,10 @@ ReplayOptions SceneRun::replay(ModelFor what) const {
 }
 
 /// The stage that a frame which came out different departs in first.
-std::optional<Divergence> SceneRun::find_divergence(int frame) {
+std::optional<Divergence> SceneRun::find_divergence(int frame, ModelFor model) {
   Source& source = *source_;
   const Config& config = source.config();
-  const ReplayOptions options = replay(ModelFor::kMonitors);
+  const ReplayOptions options = replay(model);
   progress_->show("looking for the stage that differs first");
   // A netlist has no nets to watch but its ports.
   const std::string missing =
@@ -94,10 +94,10 @@ void SceneRun::check_stages(Report& report, Search& search) {
 }
 
 /// Writes the waveform round a divergence that was found in the run's frame `frame`, or one before it.
-void SceneRun::write_waveform(TempFiles& files, Divergence& divergence, int frame) {
+void SceneRun::write_waveform(TempFiles& files, Divergence& divergence, int frame, ModelFor model) {
   Source& source = *source_;
   try {
-    const ReplayOptions options = replay(ModelFor::kWaveforms);
+    const ReplayOptions options = replay(model);
     progress_->show("writing the waveform");
     const auto feed = [&](int i, const WordSink& sink) { return source.frame(i, sink); };
     cosim::write_waveform(
@@ -127,22 +127,24 @@ bool SceneRun::after_verdict(const std::function<void()>& say) {
 void SceneRun::look_into(TempFiles& files, const Report& r, Search& search) {
   if (!r.first_difference || r.first_difference->of_registers() || o_.no_divergence) return;
   if (search.divergence) {
-    if (!o_.out.empty()) write_waveform(files, *search.divergence, r.first_difference->frame);
+    if (!o_.out.empty()) write_waveform(files, *search.divergence, r.first_difference->frame, ModelFor::kWaveforms);
     return;
   }
   try {
-    search.divergence = find_divergence(r.first_difference->frame);
+    if (!o_.out.empty()) search.model = ModelFor::kSearch;
+    search.divergence = find_divergence(r.first_difference->frame, search.model);
     search.made = true;
   } catch (const Error& e) {
     progress_->clear();
     source_->note(fmt::format("the stage that differs first was not found: {}", e.what()));
   }
-  if (search.divergence && !o_.out.empty()) write_waveform(files, *search.divergence, r.first_difference->frame);
+  if (search.divergence && !o_.out.empty())
+    write_waveform(files, *search.divergence, r.first_difference->frame, search.model);
 }
 
 /// Where the monitors could not be had for the search, the page does without them too.
 void SceneRun::write_page(TempFiles& files, const Report& r, const Search& search, report::SceneRecord& record) {
-  const auto watch = [&] { return replay(ModelFor::kMonitors); };
+  const auto watch = [&] { return replay(search.model); };
   record.page = report_->write(files, o_.out, r, record, search.divergence, search.made ? watch : RunReport::Watch());
   record.page_crc32 = report::checksum(files.now(*record.page));
 }

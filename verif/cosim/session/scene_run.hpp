@@ -114,13 +114,14 @@ class SceneRun {
   // After the verdict: scene_finish.cpp, scene_kept.cpp.
   struct Search {
     std::optional<Divergence> divergence;
-    bool made = false;  // the stage that differs first was looked for
+    bool made = false;                     // the stage that differs first was looked for
+    ModelFor model = ModelFor::kMonitors;  // by this model
   };
   bool after_verdict(const std::function<void()>& say);
   void look_into(TempFiles& files, const Report& r, Search& search);
-  std::optional<Divergence> find_divergence(int frame);
+  std::optional<Divergence> find_divergence(int frame, ModelFor model);
   void check_stages(Report& report, Search& search);
-  void write_waveform(TempFiles& files, Divergence& divergence, int frame);
+  void write_waveform(TempFiles& files, Divergence& divergence, int frame, ModelFor model);
   void write_page(TempFiles& files, const Report& r, const Search& search, report::SceneRecord& record);
   [[nodiscard]] bool differs_alone(const std::vector<std::uint32_t>& words, int number, bool prelude) const;
   void look_for_needs(report::KeptRecord& kept, const Difference& difference) const;

@@ -156,6 +156,10 @@ class Build:
             command.append("--coverage-line")
         if self.args.monitors:
             command.append(f"-I{MONITORS}")
+        if self.args.monitors and self.args.waves:  # a waveform is of the RTL
+            untraced = self.work / "untraced.vlt"
+            untraced.write_text('`verilator_config\ntracing_off -file "*_monitor.sv"\n')
+            command.append(untraced)
         if self.args.mutants:  # what is wrong on purpose may be bad style
             command += ["-Wno-fatal", self.work / "kage_mutants.sv"]
         command += self.netlist() if self.args.netlist else files("modules", self.rtl)
