@@ -97,6 +97,15 @@ with tempfile.TemporaryDirectory() as temp:
             if (seer is None and path in NAMED) or (None not in (seer, seers) and seer not in seers):
                 bad.append(f"{path}: {name}: seen_by {seer}: there is none of that name")
 
+    # tools/defects knows the same lists, and refuses a name before it tries another.
+    listing = [SOURCE / "tools/defects", "--list"]
+    printed = subprocess.run(listing, capture_output=True, text=True).stdout.splitlines()
+    if len(printed) != total or {line.split("  ")[0] for line in printed} != set(LISTS):
+        bad.append(f"tools/defects --list has {len(printed)} defects of {total}")
+    refused = subprocess.run([SOURCE / "tools/defects", "skid_spare", "no-such"], capture_output=True, text=True)
+    if refused.returncode != 2 or refused.stdout or not refused.stderr.startswith("tools/defects: no-such: no defect"):
+        bad.append(f"tools/defects takes no-such: {refused.stdout}{refused.stderr}")
+
     # All mutants together, behind their select.
     copy = pathlib.Path(temp) / "rtl"
     shutil.copytree(SOURCE / "rtl", copy)

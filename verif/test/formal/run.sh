@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 # Runs the proofs of verif/test/formal/proofs.bash, and the defects of defects.yaml, which show that each property can fail.
 #
-# usage: verif/test/formal/run.sh [--proofs] [MODULE|UNITS]...      (default: all modules, compare_tree of 2 3 4 5 units)
+# usage: verif/test/formal/run.sh [--proofs] [MODULE|UNITS|DEFECT]...      (default: all modules, compare_tree of 2 3 4 5 units)
 #   --proofs the proofs alone: defects take longer
 #   MODULE   all proofs and defects of this module
 #   UNITS    the proof of the compare_tree of so many units, and the tree's defects
+#   DEFECT   this defect alone
 # KAGE_SHARD=I/N: of the defects the Ith of N parts, which cannot tell whether every property is refuted.
 # Needs yosys (with yosys-smtbmc) and yices-smt2, from PATH or from where tools/deps put it. Exit 0: all is proved, every defect is
 # found, and every property is refuted by a defect; 1: not so; 2: a tool or a file is not as it should be.
 set -euo pipefail
-[ "${1:-}" != --help ] || { sed -n '3,11s/^# \{0,1\}//p' "$0"; exit 0; }
+[ "${1:-}" != --help ] || { sed -n '3,12s/^# \{0,1\}//p' "$0"; exit 0; }
 proofs_alone=
 if [ "${1:-}" = --proofs ]; then proofs_alone=1; shift; fi
 cd "$(dirname "$0")/../../.."
@@ -124,6 +125,7 @@ run_defect() { # NAME: the proof must refute it from reset on; that it is not pr
 
 # ---- which -----------------------------------------------------------------------------------------------------------
 declare -A asked modules
+alone=() # defects that are asked for by name
 take() { # PROOF
   asked[$1]=1
   modules[${of[$1.module]}]=1
@@ -136,10 +138,15 @@ for word in "$@"; do
       take "compare_tree_$word"
       known=1
       ;;
-    *) for name in "${proofs[@]}"; do if [ "${of[$name.module]}" = "$word" ]; then take "$name"; known=1; fi; done ;;
+    *)
+      for name in "${proofs[@]}"; do if [ "${of[$name.module]}" = "$word" ]; then take "$name"; known=1; fi; done
+      for name in "${defects[@]}"; do if [ -z "$known" ] && [ "$name" = "$word" ]; then alone+=("$name"); known=1; fi; done
+      ;;
   esac
-  [ -n "$known" ] || { echo "run.sh: $word: neither a module with a proof nor a number of units" >&2; exit 2; }
+  [ -n "$known" ] || { echo "run.sh: $word: neither a module with a proof, nor a number of units, nor a defect" >&2; exit 2; }
 done
+for name in "${alone[@]}"; do run_defect "$name"; done
+if [ $# != 0 ] && [ ${#alone[@]} = $# ]; then exit $bad; fi
 if [ $# = 0 ]; then for name in "${proofs[@]}"; do take "$name"; done; fi
 
 for name in "${proofs[@]}"; do [ -z "${asked[$name]:-}" ] || run_proof "$name"; done
