@@ -60,7 +60,8 @@ int run(const ListCommand& o) {
       {"faults", "deliberate defects of the RTL, for --fault", {}}};
   for (const std::string& name : builtin_scenes()) groups[0].entries.push_back({name, about_scene(name)});
   for (const NamedConfig& named : named_configs()) groups[1].entries.push_back({named.name, differences(named.config)});
-  for (const cosim::Fault& fault : cosim::faults()) groups[2].entries.push_back({fault.name, fault.breaks});
+  if (o.what.empty() || o.what == "faults")
+    for (const cosim::Fault& fault : cosim::faults()) groups[2].entries.push_back({fault.name, fault.breaks});
 
   Json j = Json::object();
   std::string text;

@@ -16,12 +16,11 @@ volatile std::sig_atomic_t at_once = 0;    // there is an EndsAtOnce
 // files that it leaves in hidden folders, and its children die with it.
 void on_signal(int number) {
   if (signalled != 0) _exit(kSignalled + number);
-  if (at_once != 0) {
-    constexpr std::string_view kText = "kage: interrupted\n";
-    if (write(STDERR_FILENO, kText.data(), kText.size()) < 0) _exit(kSignalled + number);
-    _exit(kSignalled + number);
-  }
   signalled = number;
+  if (at_once == 0) return;
+  constexpr std::string_view kText = "kage: interrupted\n";
+  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText.data(), kText.size());
+  _exit(kSignalled + number);
 }
 
 }  // namespace

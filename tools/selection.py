@@ -27,7 +27,14 @@ CPP = (".cpp", ".hpp", ".h", ".c", ".inc")
 SV = (".sv", ".svh", ".v")
 EVERYTHING = ("CMakeLists.txt", "CMakePresets.json", "cmake/*", "*/CMakeLists.txt", "rtl/defs/*", "tools/lib.sh")
 # Tests that look over the whole tree, in seconds: they go with every change.
-WHOLE_TREE = ("contract/definition", "contract/layers", "contract/links", "contract/one_place", "tools/gen-defs")
+WHOLE_TREE = (
+    "contract/defects",
+    "contract/definition",
+    "contract/layers",
+    "contract/links",
+    "contract/one_place",
+    "tools/gen-defs",
+)
 # Programs of tests that are not named as their test, with what they are made of.
 PROGRAMS = {
     "kage_extremes": "verif/extremes/*.cpp",
@@ -55,6 +62,7 @@ READERS = {
     "verif/bench/*": ("contract/counted",),
     "verif/test/report/*": ("cli/report",),
     "verif/cosim/model/faults.yaml": ("rtl/fault_*", "unit/cosim/faults"),
+    "verif/test/examples/*": ("examples/*",),
     "verif/fuzz/*": ("fuzz/*",),
     "verif/test/formal/undecided_synchronizer.sv": ("formal/async_fifo",),
     "verif/test/package/*": ("package/*",),

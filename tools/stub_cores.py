@@ -59,7 +59,7 @@ class Table(ctypes.Structure):
 
 def defects(top):
     """The command that knows the faults of the core."""
-    return [top / "verif/cosim/model/driver/defects.py", top / "verif/cosim/model/faults.yaml"]
+    return [sys.executable, "-B", top / "verif/cosim/model/driver/defects.py", top / "verif/cosim/model/faults.yaml"]
 
 
 def sources_of(top):

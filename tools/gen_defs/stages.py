@@ -63,6 +63,8 @@ class Stages:
             "// verilog_lint: waive-start line-length",
         ]
         for s in self.d["stages"]:
+            if s["name"] == "part":
+                continue  # kage_trace_part of kage_trace.svh, which the driver takes apart
             # v_: names of their own beside those of a monitor's ports.
             ports = "".join(f", input logic [{64 * v.get('count', 1) - 1}:0] v_{v['name']}" for v in s["values"])
             names = ", ".join("v_" + v["name"] for v in reversed(s["values"]))

@@ -37,6 +37,12 @@ LISTS = {
     "verif/test/cells/defects.yaml": ((), set()),
     "verif/test/examples/defects.yaml": ((), None),
 }
+# Lists whose defects are tried by the beginning of their name, or by a name that stands in a test.
+BEGINNINGS = {
+    "verif/test/cells/defects.yaml": ("ice40_", "ecp5_"),
+    "verif/test/examples/defects.yaml": ("axi_dma_", "litex_"),
+}
+BOARD_TEST = (SOURCE / "verif/test/board/rehearsal.cpp").read_text()
 NAMED = {"verif/cosim/model/faults.yaml", "verif/test/rtl/board_mutants.yaml", "verif/test/formal/defects.yaml"}
 
 # Lists that must be refused, with words of why; the file is rtl/skid_buffer.sv.
@@ -46,6 +52,15 @@ REFUSED = {
     f"[{{{SOUND}}}, {{{SOUND}}}]": "two defects a",
     f"[{{{SOUND}, text: x}}]": "unknown keys text",
     f"[{{{SOUND}, changes: []}}]": "either",
+    "": "no list",
+    "[a]": "no list",
+    "{a: b}": "no list",
+    "[{": "no YAML",
+    "[{name: a, changes: x}]": "no list, or empty",
+    "[{name: a, changes: []}]": "no list, or empty",
+    "[{name: a, changes: [{file: f, was: x, is: y, inn: z}]}]": "other keys",
+    "[{name: a, file: f, was: 1, is: x}]": "are texts",
+    "[{name: a, file: f, was: '', is: x}]": "are texts",
     "[{name: a}]": "either",
     "[{name: a, file: f, was: x}]": "lacks is",
     "[{name: a, changes: [{file: f, is: x}]}]": "lacks was",
@@ -93,6 +108,10 @@ with tempfile.TemporaryDirectory() as temp:
             continue
         total += len(listed)
         for name, defect in listed.items():
+            if not name.startswith(BEGINNINGS.get(path, "")):
+                bad.append(f"{path}: {name} is tried by nothing: names begin with one of {BEGINNINGS[path]}")
+            if path == "verif/board/faults.yaml" and f'"{name}"' not in BOARD_TEST:
+                bad.append(f"{path}: verif/test/board/rehearsal.cpp does not try {name}")
             seer = defect.get("seen_by")
             if (seer is None and path in NAMED) or (None not in (seer, seers) and seer not in seers):
                 bad.append(f"{path}: {name}: seen_by {seer}: there is none of that name")

@@ -86,7 +86,7 @@ def build(work, name, board, fault, verilator, cxx, partial):
             copy = tree / source.relative_to(TOP)
             copy.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(source, copy)
-        run(f"fault {fault}", [DEFECTS, FAULTS, "put", fault, tree], log, work)
+        run(f"fault {fault}", [sys.executable, "-B", DEFECTS, FAULTS, "put", fault, tree], log, work)
     simulation = board["simulation"]
     parameters = board["board"] | core_of(board) | simulation["board"]
     flags = "-fPIC -fvisibility=hidden -std=c++20 -O1 -DVL_USER_FINISH -DVL_USER_STOP -DVL_USER_FATAL -DVL_PRINTF=kage_board_printf"
@@ -167,6 +167,10 @@ def main():
     if args.core:
         print("{" + ", ".join(f"{n}: {v}" for n, v in core_of(boards[name]).items()) + "}")
         return
+    if args.fault:
+        listed = subprocess.run([sys.executable, "-B", DEFECTS, FAULTS, "list"], capture_output=True, text=True)
+        if args.fault not in (line.split("\t")[0] for line in listed.stdout.splitlines()):
+            fail(listed.stderr.strip() or f"{args.fault}: not in {FAULTS}")
     verilator = shlex.split(os.environ.get("VERILATOR") or "verilator")
     cxx = shlex.split(os.environ.get("CXX") or "c++")
     key = hashlib.sha256((version(verilator) + version(cxx)).encode())

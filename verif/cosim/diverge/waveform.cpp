@@ -68,9 +68,10 @@ void record(const std::filesystem::path& path, const std::string& name, const Di
   const auto rtl = make_rtl(options.library, config, options.rtl);
   const std::uint64_t end = d.clock + wave.after;
   rtl->wave(path, d.clock > wave.before ? d.clock - wave.before : 0, end);
-  // The model has no monitors, but a driver that records runs the core in slices, and a frame ahead by itself: as in
-  // the search, so that clocks are the same.
+  // A driver that records runs the core in slices, and a frame ahead by itself: as in the search, so that clocks are
+  // the same. Nobody wants the events here, and those of a frame are many.
   rtl->record(true, [&] {
+    (void)rtl->take_events();
     if (options.wait) options.wait();
     if (rtl->clock() > end) throw Enough();
   });

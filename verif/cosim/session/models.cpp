@@ -50,6 +50,17 @@ RtlOptions rtl_options(const RtlRun& rtl, std::uint64_t seed) {
 Model model_of(const NamedConfig& config, const RtlRun& rtl, Host& host, ModelFor what, const std::string& ports) {
   tell_other_rtl(host);
   const std::unique_ptr<Progress> progress = host.progress();
+  // One that a search has left serves as well.
+  const bool part = what == ModelFor::kMonitors || what == ModelFor::kWaveforms;
+  const auto there = [&](bool with_monitors, bool with_waves) {
+    return cosim::has_model(config.config, {.fault = rtl.fault,
+                                            .monitors = with_monitors,
+                                            .waves = with_waves,
+                                            .mutants = rtl.mutant != 0,
+                                            .netlist = rtl.netlist});
+  };
+  if (part && !there(what == ModelFor::kMonitors, what == ModelFor::kWaveforms) && there(true, true))
+    what = ModelFor::kSearch;
   const bool monitors = what == ModelFor::kMonitors || what == ModelFor::kSearch;
   const bool waves = what == ModelFor::kWaveforms || what == ModelFor::kSearch;
   const bool lines = what == ModelFor::kLines;

@@ -25,7 +25,7 @@ rtl=$top/rtl
 if [ -n "$fault" ]; then
   cp -r "$top/rtl" "$work/rtl"
   rtl=$work/rtl
-  "$top/verif/cosim/model/driver/defects.py" "$top/verif/cosim/model/faults.yaml" put "$fault" "$work"
+  /usr/bin/python3 -B "$top/verif/cosim/model/driver/defects.py" "$top/verif/cosim/model/faults.yaml" put "$fault" "$work"
 fi
 rc=0
 make -C "$top/examples/cocotb" WORK="$work" RTL="$rtl" KAGE="$build/bin/kage" CONFIG="$work/config.yaml" SCENE="$scene" SIZE="$size" >"$work/log" 2>&1 || rc=$?

@@ -45,14 +45,16 @@ play "$cells" || fail "a model is not what it stands for"
 # ---- damage: each defect of defects.yaml in the family's models, and a bench must fail by it ----
 n=0
 [ "${2:-}" = --damage ] || { echo "run.sh: $family: $(wc -w <<<"$modelled") cells as they should be"; exit 0; }
-defects=("$top/verif/cosim/model/driver/defects.py" "$here/defects.yaml")
+defects=(/usr/bin/python3 -B "$top/verif/cosim/model/driver/defects.py" "$here/defects.yaml")
+listed=$("${defects[@]}" list) || fail "no list of defects"
 damaged=$work/verif/cosim/model/cells/$family.v
 mkdir -p "$(dirname "$damaged")"
-for name in $("${defects[@]}" list | cut -f1 | grep "^${family}_"); do
+for name in $(cut -f1 <<<"$listed" | grep "^${family}_"); do
   cp "$cells" "$damaged"
   "${defects[@]}" put "$name" "$work"
   if said=$(play "$damaged"); then fail "$name is not found"; fi
   grep -q "_tb: FAILED" <<<"$said" || fail "$name does not even compile: $said"
   n=$((n + 1))
 done
+[ $n -gt 0 ] || fail "no defect was tried"
 echo "run.sh: $family: $(wc -w <<<"$modelled") cells as they should be, $n of $n damages found"

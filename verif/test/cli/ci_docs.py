@@ -42,7 +42,7 @@ def example(name):
 def stubs():
     (root / "bin").mkdir(parents=True)
     defect = (
-        f"{source}/verif/cosim/model/driver/defects.py {source}/verif/cosim/model/faults.yaml put wrong_compare kage/share/kage"
+        f"/usr/bin/python3 -B {source}/verif/cosim/model/driver/defects.py {source}/verif/cosim/model/faults.yaml put wrong_compare kage/share/kage"
         if rtl == "broken"
         else ":"
     )

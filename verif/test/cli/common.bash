@@ -68,7 +68,7 @@ data_copy() {
 }
 
 # put_fault NAME FOLDER: puts a fault of verif/cosim/model/faults.yaml into a copy of the data.
-put_fault() { "$source/verif/cosim/model/driver/defects.py" "$source/verif/cosim/model/faults.yaml" put "$1" "$2" || fail "no fault $1 to put in"; }
+put_fault() { /usr/bin/python3 -B "$source/verif/cosim/model/driver/defects.py" "$source/verif/cosim/model/faults.yaml" put "$1" "$2" || fail "no fault $1 to put in"; }
 
 # list_without_widest FOLDER: a copy of the data whose list of configurations lacks widest. That one draws all that any core
 # can, so only without it there are scenes that no named configuration draws.

@@ -35,7 +35,7 @@ trouble "" "$kage" help --man --zsh
 expect 0 "$kage" list configs
 diff "$temp/stdout" <(sed -n 's/^\([a-z0-9]*\):.*/\1/p' "$source/rtl/defs/configs.yaml") || fail "list configs is not rtl/defs/configs.yaml"
 expect 0 "$kage" list faults
-diff "$temp/stdout" <("$source/verif/cosim/model/driver/defects.py" "$source/verif/cosim/model/faults.yaml" list | cut -f1) || fail "list faults is not verif/cosim/model/faults.yaml"
+diff "$temp/stdout" <(/usr/bin/python3 -B "$source/verif/cosim/model/driver/defects.py" "$source/verif/cosim/model/faults.yaml" list | cut -f1) || fail "list faults is not verif/cosim/model/faults.yaml"
 expect 0 "$kage" list scenes
 diff <(sort "$temp/stdout") <(cd "$source/scenes" && printf '%s\n' *.gltf | sed 's/\.gltf$//' | sort) || fail "list scenes is not scenes/"
 expect 0 "$kage" list --json l.json

@@ -8,11 +8,11 @@ echo '{MAX_WIDTH: 64, LANES: 2, BEAT_WORDS: 1}' >small.yaml
 expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --config small.yaml --out s.kage
 export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
 
+cp -r data/rtl sound
 # The environment of make and compilers is no part of the name, so the model must not depend on it.
 CXXFLAGS=--no-such-flag OPT=--no-such-flag LDFLAGS=--no-such-flag MAKEFLAGS=n "$kage" model small.yaml >built 2>&1 &
 until compgen -G 'cache/kage/models/*.lock' >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.05; done
 [ -z "$(find cache -name '*.so')" ] || fail "the model was there before its sources could change"
-cp -r data/rtl sound
 put_fault wrong_compare data
 wait $! || fail "the model was not built: $(cat built)"
 rm -r data/rtl && mv sound data/rtl

@@ -41,7 +41,7 @@ proof() { # NAME KEY=VALUE...
   : "${of[$name.top]:=${of[$name.module]}_proof}"
 }
 . "$here/proofs.bash"
-with_defects=(verif/cosim/model/driver/defects.py "$here/defects.yaml")
+with_defects=(/usr/bin/python3 -B verif/cosim/model/driver/defects.py "$here/defects.yaml")
 listed=$("${with_defects[@]}" list) || exit 2
 while IFS=$'\t' read -r name proof file; do
   defects+=("$name")

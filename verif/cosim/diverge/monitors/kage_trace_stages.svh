@@ -55,10 +55,6 @@ function automatic void trace_error(input int v_unit_at, input logic [63:0] v_co
   kage_trace(StageError, v_unit_at, TraceBits'({v_unit, v_token, v_line, v_frame, v_code}));
 endfunction
 
-function automatic void trace_part(input int v_unit_at, input logic [63:0] v_part, input logic [63:0] v_expected, input logic [63:0] v_actual);
-  kage_trace(StagePart, v_unit_at, TraceBits'({v_actual, v_expected, v_part}));
-endfunction
-
 function automatic void trace_claim(input int v_unit_at);
   kage_trace(StageClaim, v_unit_at, '0);
 endfunction

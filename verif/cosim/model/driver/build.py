@@ -77,8 +77,11 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep")
     args = parser.parse_intermixed_args()
-    if args.fault and args.fault not in defects.load(only("faults")):
-        fail(f"{args.fault}: not in {only('faults')}")
+    try:
+        if args.fault and args.fault not in defects.load(only("faults")):
+            fail(f"{args.fault}: not in {only('faults')}")
+    except defects.DefectError as e:
+        fail(str(e))
     if not args.out:
         fail("no OUT.so given")
     if args.netlist and (args.mutants or args.ports):

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Deliberate defects: lists of changes to files, each of a text that the file has exactly once. A test must see each of them.
 
-usage: defects.py LIST list               a line a defect: its name, what sees it, and its files, with tabs between
+usage: defects.py LIST list               a line a defect: its name, what sees it, and its files, with tabs between. Keys of a
+                                          list's own are passed over
        defects.py LIST put NAME TREE      change the files of the tree, which is laid out as the source tree
 
 A list is YAML, a sequence of defects:
@@ -25,8 +26,9 @@ import sys
 
 import yaml
 
-PLACE = {"file", "was", "is", "in", "port"}
+PLACE = {"file", "was", "is", "in"}
 FORM = PLACE | {"name", "changes", "breaks", "seen_by", "equivalent", "lives", "named"}
+ANY = None  # for load(): keys of any name
 
 
 class DefectError(Exception):
@@ -35,22 +37,42 @@ class DefectError(Exception):
 
 def load(path, more=()):
     """The defects of a list by name, in its order. `more`: keys that the list has of its own."""
+    try:
+        listed = yaml.safe_load(pathlib.Path(path).read_text())
+    except (OSError, yaml.YAMLError) as e:
+        raise DefectError(f"{path}: {getattr(e, 'strerror', None) or 'no YAML: ' + str(e).splitlines()[0]}") from e
+    if not isinstance(listed, list) or not all(isinstance(defect, dict) for defect in listed):
+        raise DefectError(f"{path}: no list of defects")
     defects = {}
-    for defect in yaml.safe_load(pathlib.Path(path).read_text()):
+    for defect in listed:
         name = defect.get("name", "")
         if not name or name in defects:
             raise DefectError(f"{path}: {f'two defects {name}' if name else 'a defect without a name'}")
-        if odd := defect.keys() - FORM - set(more):
-            raise DefectError(f"{path}: {name}: unknown keys {', '.join(sorted(odd))}")
-        if ("changes" in defect) == ("file" in defect):
-            raise DefectError(f"{path}: {name}: it has either `changes` or `file`, `was` and `is`")
-        if len(defect.keys() & {"equivalent", "lives", "named"}) > 1:
-            raise DefectError(f"{path}: {name}: more than one of equivalent, lives and named")
-        for change in changes(defect):
-            if missing := {"file", "was", "is"} - change.keys():
-                raise DefectError(f"{path}: {name}: a change lacks {', '.join(sorted(missing))}")
+        try:
+            check(defect, more)
+        except DefectError as e:
+            raise DefectError(f"{path}: {name}: {e}") from e
         defects[name] = defect
     return defects
+
+
+def check(defect, more):
+    """Whether a defect has the form above."""
+    if more is not ANY and (odd := defect.keys() - FORM - set(more)):
+        raise DefectError(f"unknown keys {', '.join(sorted(odd))}")
+    if ("changes" in defect) == bool(defect.keys() & PLACE):
+        raise DefectError("it has either `changes` or `file`, `was` and `is`")
+    if len(defect.keys() & {"equivalent", "lives", "named"}) > 1:
+        raise DefectError("more than one of equivalent, lives and named")
+    if not isinstance(changes(defect), list) or not changes(defect):
+        raise DefectError("`changes` is no list, or empty")
+    for change in changes(defect):
+        if not isinstance(change, dict) or ("changes" in defect and change.keys() - PLACE):
+            raise DefectError("a change has other keys than file, was, is and in")
+        if missing := {"file", "was", "is"} - change.keys():
+            raise DefectError(f"a change lacks {', '.join(sorted(missing))}")
+        if not all(isinstance(change[key], str) for key in PLACE & change.keys()) or not change["was"]:
+            raise DefectError("file, was, is and in are texts, and `was` is not empty")
 
 
 def changes(defect):
@@ -78,7 +100,7 @@ def put_in(defect, tree):
 
 def main(arguments):
     if arguments[1:] == ["list"]:
-        for name, defect in load(arguments[0]).items():
+        for name, defect in load(arguments[0], ANY).items():
             files = dict.fromkeys(change["file"] for change in changes(defect))
             print(name, defect.get("seen_by", ""), *files, sep="\t")
     elif len(arguments) == 4 and arguments[1] == "put":

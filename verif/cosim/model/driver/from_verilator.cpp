@@ -77,6 +77,7 @@ void kage_trace(int stage, int unit, const svBitVecVal* values) {
     e.value[i] = values[2 * i] | static_cast<std::uint64_t>(values[2 * i + 1]) << 32;
 }
 
+// The event of stage `part` in rtl/defs/stages.yaml: the part, then the lowest 64 bits that differ.
 void kage_trace_part(int part, const svBitVecVal* expected, const svBitVecVal* actual) {
   int i = 0;
   while (i < 14 && expected[i] == actual[i] && expected[i + 1] == actual[i + 1]) i += 2;

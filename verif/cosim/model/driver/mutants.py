@@ -5,14 +5,19 @@ import defects
 import sources
 from steps import fail
 
-KEYS = ("class", "configs")  # that the list has beside those of each list of defects
+KEYS = ("class", "configs", "port")  # that the list has beside those of each list of defects
 
 
 def put_in(rtl, package):
     """Put every mutant into the copy `rtl`, a folder of that name, behind a select, which `package` holds; return how many there are."""
-    mutants = defects.load(sources.only("mutants"), KEYS)
+    try:
+        mutants = defects.load(sources.only("mutants"), KEYS)
+    except defects.DefectError as e:
+        fail(str(e))
     places = {}
     for number, m in enumerate(mutants.values(), 1):
+        if "changes" in m:
+            fail(f"mutant {m['name']}: it changes one place, and has no `changes`")
         try:
             begin = defects.place((rtl.parent / m["file"]).read_text(), m)
         except defects.DefectError as e:
