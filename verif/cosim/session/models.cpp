@@ -50,41 +50,32 @@ RtlOptions rtl_options(const RtlRun& rtl, std::uint64_t seed) {
 Model model_of(const NamedConfig& config, const RtlRun& rtl, Host& host, ModelFor what, const std::string& ports) {
   tell_other_rtl(host);
   const std::unique_ptr<Progress> progress = host.progress();
-  // One that a search has left serves as well.
-  const bool part = what == ModelFor::kMonitors || what == ModelFor::kWaveforms;
-  const auto there = [&](bool with_monitors, bool with_waves) {
-    return cosim::has_model(config.config, {.fault = rtl.fault,
-                                            .monitors = with_monitors,
-                                            .waves = with_waves,
-                                            .mutants = rtl.mutant != 0,
-                                            .netlist = rtl.netlist});
+  ModelOptions options{.fault = rtl.fault, .mutants = rtl.mutant != 0, .ports = ports, .netlist = rtl.netlist};
+  const auto be_for = [&options](ModelFor use) {
+    options.monitors = use == ModelFor::kMonitors || use == ModelFor::kSearch;
+    options.waves = use == ModelFor::kWaveforms || use == ModelFor::kSearch;
+    options.lines = use == ModelFor::kLines;
   };
-  if (part && !there(what == ModelFor::kMonitors, what == ModelFor::kWaveforms) && there(true, true))
-    what = ModelFor::kSearch;
-  const bool monitors = what == ModelFor::kMonitors || what == ModelFor::kSearch;
-  const bool waves = what == ModelFor::kWaveforms || what == ModelFor::kSearch;
-  const bool lines = what == ModelFor::kLines;
+  be_for(what);
+  // The model that a search has left serves its parts as well.
+  if (options.monitors != options.waves && !cosim::has_model(config.config, options)) {
+    be_for(ModelFor::kSearch);
+    if (!cosim::has_model(config.config, options)) be_for(what);
+  }
   if (!rtl.netlist.empty() && rtl.mutant != 0)
     throw Error("--mutant: a mutant is chosen within a model of the RTL: not with --netlist (--fault is built in)");
   const std::string name = fmt::format("the {} of configuration {}{}",
                                        rtl.netlist.empty() ? "RTL model" : rtl.netlist + " netlist", config.name,
-                                       monitors && waves ? " with monitors and waveforms"
-                                       : monitors        ? " with monitors"
-                                       : waves           ? " for waveforms"
-                                       : lines           ? " that counts lines"
-                                       : !ports.empty()  ? " with ports"
-                                                         : "");
-  const ModelOptions options{.fault = rtl.fault,
-                             .monitors = monitors,
-                             .waves = waves,
-                             .lines = lines,
-                             .mutants = rtl.mutant != 0,
-                             .ports = ports,
-                             .netlist = rtl.netlist,
-                             .progress = [&](double seconds) {
-                               host.check();
-                               progress->show(fmt::format("building {}: {:.0f} s", name, seconds));
-                             }};
+                                       options.monitors && options.waves ? " with monitors and waveforms"
+                                       : options.monitors                ? " with monitors"
+                                       : options.waves                   ? " for waveforms"
+                                       : options.lines                   ? " that counts lines"
+                                       : !ports.empty()                  ? " with ports"
+                                                                         : "");
+  options.progress = [&](double seconds) {
+    host.check();
+    progress->show(fmt::format("building {}: {:.0f} s", name, seconds));
+  };
   // A configuration that nobody has named may be new: whether its model takes a minute is told before it passes.
   if (config.name == kPlanned)
     host.say(fmt::format("kage: {} {}\n", name,

@@ -70,6 +70,25 @@ data_copy() {
 # put_fault NAME FOLDER: puts a fault of verif/cosim/model/faults.yaml into a copy of the data.
 put_fault() { /usr/bin/python3 -B "$source/verif/cosim/model/driver/defects.py" "$source/verif/cosim/model/faults.yaml" put "$1" "$2" || fail "no fault $1 to put in"; }
 
+# each_defect EXAMPLE COMMAND: COMMAND NAME for each defect of the example, in a copy NAME of example and RTL. It must fail, and its
+# output tell the defect as verif/test/examples/defects.yaml has it.
+each_defect() {
+  local defects=(/usr/bin/python3 -B "$source/verif/cosim/model/driver/defects.py" "$source/verif/test/examples/defects.yaml")
+  local listed name pattern tried=0
+  listed=$("${defects[@]}" list) || fail "no list of defects"
+  while IFS=$'\t' read -r name pattern _ <&3; do
+    [[ $name == "$1"_* ]] || continue
+    tried=$((tried + 1))
+    mkdir -p "$name/examples"
+    cp -r "$source/examples/$1" "$name/examples"
+    cp -r "$source/rtl" "$name"
+    "${defects[@]}" put "$name" "$name" || fail "$name: is no change of the example"
+    "$2" "$name"
+    grep -hm 1 -E "$pattern" stdout stderr | sed "s/^/$name: /" | grep . || { fail "$name: is not told"; tail -n 5 stdout stderr; }
+  done 3<<<"$listed"
+  [ $tried -gt 0 ] || fail "no defect was tried"
+}
+
 # list_without_widest FOLDER: a copy of the data whose list of configurations lacks widest. That one draws all that any core
 # can, so only without it there are scenes that no named configuration draws.
 list_without_widest() {

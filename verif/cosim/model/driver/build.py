@@ -77,11 +77,6 @@ def main():
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--keep")
     args = parser.parse_intermixed_args()
-    try:
-        if args.fault and args.fault not in defects.load(only("faults")):
-            fail(f"{args.fault}: not in {only('faults')}")
-    except defects.DefectError as e:
-        fail(str(e))
     if not args.out:
         fail("no OUT.so given")
     if args.netlist and (args.mutants or args.ports):
@@ -135,7 +130,10 @@ class Build:
         shutil.copytree(RTL, self.rtl)
         if self.args.fault:
             try:
-                defects.put_in(defects.load(only("faults"))[self.args.fault], self.work)
+                faults = defects.load(only("faults"))
+                if self.args.fault not in faults:
+                    fail(f"{self.args.fault}: not in {only('faults')}")
+                defects.put_in(faults[self.args.fault], self.work)
             except defects.DefectError as e:
                 fail(f"fault {self.args.fault}: {e}")
         if self.args.mutants:
