@@ -17,8 +17,8 @@
 #include "commit.hpp"  // made by cmake/KageCommit.cmake
 #include "kage/error.hpp"
 #include "mapped.hpp"
-#include "module/foreign_code.hpp"
 #include "options.hpp"
+#include "plugin/foreign_code.hpp"
 #include "results.hpp"
 #include "signals.hpp"
 #include "simd/targets.hpp"
@@ -89,7 +89,7 @@ void check_stack() {
                                   stack.rlim_cur / 1024, least / 1024));
 }
 
-/// An installed kage finds its data and its modules beside itself, wherever the prefix was moved to.
+/// An installed kage finds its data and its plugins beside itself, wherever the prefix was moved to.
 void find_data() {
   namespace fs = std::filesystem;
   std::error_code ec;
@@ -97,8 +97,8 @@ void find_data() {
   if (ec) return;
   if (fs::exists(prefix / "share/kage/rtl/defs/configs.yaml", ec))
     setenv("KAGE_DATA_DIR", (prefix / "share/kage").c_str(), 0);
-  const fs::path modules = prefix / KAGE_INSTALL_LIBDIR / "kage";
-  if (fs::exists(modules / "libkage_meshes.so", ec)) setenv("KAGE_MODULE_DIR", modules.c_str(), 0);
+  const fs::path plugins = prefix / KAGE_INSTALL_LIBDIR / "kage";
+  if (fs::exists(plugins / "libkage_meshes.so", ec)) setenv("KAGE_PLUGIN_DIR", plugins.c_str(), 0);
 }
 
 int run(int argc, char** argv) {

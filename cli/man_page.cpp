@@ -81,8 +81,8 @@ std::string man_page(const Program& program) {
       "KAGE_DATA_DIR",
       "the folder with rtl/, scenes/ and verif/, default: share/kage of the prefix that the program is installed in, "
       "or the source tree that it was built from");
-  variable("KAGE_MODULE_DIR",
-           "the folder with the modules for pictures and meshes, default: lib/kage of that prefix, or where they were "
+  variable("KAGE_PLUGIN_DIR",
+           "the folder with the plugins for pictures and meshes, default: lib/kage of that prefix, or where they were "
            "built");
   variable("KAGE_SIMD",
            "the instruction set of the loops in vectors, such as avx2, default: the best that the CPU has");

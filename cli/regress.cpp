@@ -131,7 +131,7 @@ int run(RegressCommand& o) {
   o.how.again = command_line(o.command);
   if (o.command.option(kFrontEnd).count() != 0) o.how.level = o.source.level;
   if (o.list) {
-    for (const cosim::PlannedRun& run : cosim::Regress(o.how, terminal()).list(std::max(1, o.how.rounds)))
+    for (const cosim::RoundRun& run : cosim::Regress(o.how, terminal()).list(std::max(1, o.how.rounds)))
       fmt::print("{}: {}\n", run.name, run.options.lines.again);
     return kSame;
   }

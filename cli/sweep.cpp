@@ -18,7 +18,7 @@
 #include "cosim/session/source.hpp"
 #include "cosim_print.hpp"
 #include "explore/sweep_page.hpp"
-#include "explore/sweep_plan.hpp"
+#include "explore/sweep_points.hpp"
 #include "explore/sweep_rows.hpp"
 #include "explore/sweep_store.hpp"
 #include "explore/swept_scenes.hpp"

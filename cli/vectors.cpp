@@ -164,7 +164,7 @@ std::vector<vectors::PackFrame> measure(PackFrames& from, Progress& progress) {
   }
   if (std::all_of(frames.begin(), frames.end(), [](const auto& f) { return f.pixels() == 0; }))
     throw Error(from.source().name() + ": no frame brings a pixel: a pack needs one");
-  constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();  // a bench counts in 32 bits with a sign
+  constexpr std::uint64_t most = std::numeric_limits<std::int32_t>::max();  // a testbench counts in 32 bits with a sign
   std::uint64_t beats = 0;
   std::uint64_t pixels = 0;
   for (const vectors::PackFrame& f : frames) {

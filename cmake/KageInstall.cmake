@@ -27,7 +27,7 @@ install(DIRECTORY verif/board/sim DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/veri
 install(DIRECTORY verif/vectors/bench DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/vectors)
 install(DIRECTORY verif/cosim/diverge/monitors DESTINATION ${CMAKE_INSTALL_DATADIR}/kage/verif/cosim/diverge)
 
-# Documents for people: the pages as their links to each other expect them, and the benches that docs/benches.md shows.
+# Documents for people: the pages as their links to each other expect them, and the testbenches that docs/testbenches.md shows.
 install(FILES LICENSE README.md CHANGELOG.md CONTRIBUTING.md DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES scenes/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/scenes)

@@ -12,7 +12,7 @@ BELOW = {
     "simd": [],
     "arena": [],
     "file": [],
-    "module": ["file"],
+    "plugin": ["file"],
     "json": ["file"],
     "hls": [],
     "contract": ["file", "number"],
@@ -22,11 +22,11 @@ BELOW = {
     "bind": ["core"],
     "cost": ["stream"],
     "order": ["file", "arena", "simd"],
-    "scene": ["file", "json", "module", "number"],
+    "scene": ["file", "json", "plugin", "number"],
     "shadow": ["scene", "order", "number"],
     "geometry": ["shadow", "contract"],
     "frontend": ["geometry", "arena", "polygon"],
-    "image": ["file", "module", "number"],
+    "image": ["file", "plugin", "number"],
     "pipeline": ["frontend", "stream", "core", "cost", "image"],
     "plan": ["pipeline", "cost"],
 }
@@ -122,7 +122,7 @@ IMPORTS = {
 
 # Exemptions: a CMake list, a room that its own may not include, and why it has files of it.
 EXEMPT = {
-    ("ref/CMakeLists.txt", "explore"): "a checksum of what modules and their callers take a table to be",
+    ("ref/CMakeLists.txt", "explore"): "a checksum of what plugins and their callers take a table to be",
     ("verif/cosim/CMakeLists.txt", "session"): "a checksum of all that judges, by which verdicts are kept",
     ("verif/test/CMakeLists.txt", "mutants"): "all headers in one unit",
     ("verif/test/CMakeLists.txt", "cli"): "all headers in one unit",

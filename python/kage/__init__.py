@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""kage for benches in Python: streams, the golden core, and packs of test vectors.
+"""kage for testbenches in Python: streams, the golden core, and packs of test vectors.
 
     import kage
 

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "frontend/cut.hpp"
-#include "frontend/polygon_plan.hpp"
+#include "frontend/polygon_layout.hpp"
 #include "frontend/polygon_shape.hpp"
 #include "frontend/polygon_spans.hpp"
 #include "frontend/scan.hpp"
 #include "frontend/sweep.hpp"
-#include "frontend/tree_plan.hpp"
+#include "frontend/tree_layout.hpp"
 #include "frontend/weight.hpp"
 #include "kage/frontend.hpp"
 #include "kage/token.hpp"
@@ -27,7 +27,7 @@ namespace kage {
 struct FramePlan {
   const FrameGeometry* geometry;
   const Config* config;
-  TreePlan tree;
+  TreeLayout tree;
   std::vector<std::uint32_t> volume_of_face;
   std::vector<std::uint32_t> volume_of_edge;
   Sweep polygons;
@@ -35,7 +35,7 @@ struct FramePlan {
   Sweep edges;
   Sweep tree_edges;
   Sweep fragments;
-  std::optional<PolygonPlan> plan;  // at the polygon level
+  std::optional<PolygonLayout> layout;  // at the polygon level
 };
 
 /// Numbers of the polygons, faces, edges and fragments that touch a band.
@@ -55,7 +55,7 @@ class Band {
       : f_(&frame),
         keeps_origins_(origins),
         g_(frame.geometry),
-        plan_(frame.plan ? &*frame.plan : nullptr),
+        layout_(frame.layout ? &*frame.layout : nullptr),
         writer_(*frame.config, words_),
         spans_(*frame.geometry, *frame.config) {}
 
@@ -104,7 +104,7 @@ class Band {
       words_.insert(words_.end(), line.opaque.begin(), line.opaque.end());
       words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
       writer_.write_to(words_);
-      if (!line.shadow.empty() && plan_ == nullptr) writer_.resolve();
+      if (!line.shadow.empty() && layout_ == nullptr) writer_.resolve();
       words_.insert(words_.end(), line.translucent.begin(), line.translucent.end());
       writer_.eol(y);
     }
@@ -157,7 +157,7 @@ class Band {
     SpanToken look;  // of its POLYGON
   };
 
-  [[nodiscard]] bool made(PolygonWay way) const { return plan_ != nullptr && way == PolygonWay::polygon; }
+  [[nodiscard]] bool made(PolygonWay way) const { return layout_ != nullptr && way == PolygonWay::polygon; }
 
   /// The role of a drawn polygon, opaque or translucent; use() is called at the polygon level only.
   template <class Use>
@@ -165,8 +165,8 @@ class Band {
     const bool opaque = layer == Layer::opaque;
     Role role{PolygonWay::polygon, {}, opaque ? &Line::opaque : &Line::translucent, {}};
     if (opaque) role.look.normal_class = span_class(p, *f_->config);
-    if (plan_ == nullptr) return role;
-    const PolygonPlan::Use as = use();
+    if (layout_ == nullptr) return role;
+    const PolygonLayout::Use as = use();
     role.way = as.way;
     role.place = Place(layer, as.before);
     if (!opaque) role.look.alpha = p.alpha;
@@ -184,7 +184,7 @@ class Band {
   /// The tokens of a polygon, on the lines where its edges begin.
   void polygon(std::uint32_t number, const Role& role) {
     const ScreenPolygon& p = g_->polygons[number];
-    const PolygonShape& shape = plan_->shape(number);
+    const PolygonShape& shape = layout_->shape(number);
     bool begun = false;
     each_edge(g_->outline(p), shape, y0_, y1_, [&](int y, const PolygonToken& edge) {
       writer_.write_to(at(y).*role.words);
@@ -202,18 +202,18 @@ class Band {
   /// A line is to have a span of a polygon that does not go as such.
   void before_span(Line& line, std::uint32_t number, const Role& role) {
     writer_.write_to(line.*role.words);
-    if (plan_ == nullptr) return;
+    if (layout_ == nullptr) return;
     go_to(line, role.place);
     auto& of = written_.ways[static_cast<std::size_t>(role.way)];
     ++of.spans;
-    of.tall_spans += plan_->shape(number).lines() >= kTallLines ? 1 : 0;
+    of.tall_spans += layout_->shape(number).lines() >= kTallLines ? 1 : 0;
   }
 
   void opaque() {
     for (const std::uint32_t i : work_.polygons) {
       if (i < f_->tree.first_span_polygon()) continue;
       const ScreenPolygon& p = g_->polygons[i];
-      const Role role = drawn_role(p, Layer::opaque, [&] { return plan_->opaque(i); });
+      const Role role = drawn_role(p, Layer::opaque, [&] { return layout_->opaque(i); });
       const bool as_polygon = made(role.way);
       if (as_polygon) polygon(i, role);
       if (as_polygon && !keeps_origins_) continue;
@@ -237,7 +237,8 @@ class Band {
       const int y1 = std::min(y1_, f.end_line);
       for (std::uint32_t k = f.first_polygon; k < f.first_polygon + f.polygon_count; ++k) {
         const ScreenPolygon& p = g_->polygons[k];
-        const Role role = drawn_role(p, Layer::translucent, [&] { return plan_->translucent(i, k - f.first_polygon); });
+        const Role role =
+            drawn_role(p, Layer::translucent, [&] { return layout_->translucent(i, k - f.first_polygon); });
         const bool as_polygon = made(role.way);
         if (as_polygon) polygon(k, role);
         if (as_polygon && !keeps_origins_) continue;
@@ -288,10 +289,10 @@ class Band {
   void volume_face(std::uint32_t number, std::uint32_t volume) {
     const VolumeFace& face = g_->volume_faces[number];
     Role role{PolygonWay::polygon, {}, &Line::shadow, {}};
-    if (plan_ != nullptr) {
-      const PolygonPlan::Use use = plan_->face(number);
+    if (layout_ != nullptr) {
+      const PolygonLayout::Use use = layout_->face(number);
       role.way = use.way;
-      role.place = plan_->place(volume, use.before);
+      role.place = layout_->place(volume, use.before);
       role.look.w = weight(*f_->config, face.w);
     }
     const bool as_polygon = made(role.way);
@@ -325,7 +326,7 @@ class Band {
       if (!line.near.empty()) near_cap(line, volume);
       if (line.volume.none()) continue;
       if (f_->config->fsf != 0) {
-        if (plan_ == nullptr) {
+        if (layout_ == nullptr) {
           writer_.write_to(line.shadow);
           writer_.ev(line.volume.from, line.volume.to);
         }
@@ -337,7 +338,7 @@ class Band {
   }
 
   void close_sample(std::uint32_t sample) {
-    if (f_->config->count_bits == 0 || plan_ != nullptr) return;
+    if (f_->config->count_bits == 0 || layout_ != nullptr) return;
     for (int y = y0_; y < y1_; ++y) {
       Line& line = at(y);
       if (line.sample.none()) continue;
@@ -354,8 +355,8 @@ class Band {
     fill_between(line.near, g_->width, [&](int xl, int xr, int winding) {
       const int w = weight(*f_->config, winding);
       if (w == 0) return;
-      if (plan_ != nullptr) go_to(line, plan_->place(volume, plan_->made_of(volume)));
-      if (xl == 0 && xr == g_->width && plan_ == nullptr)
+      if (layout_ != nullptr) go_to(line, layout_->place(volume, layout_->made_of(volume)));
+      if (xl == 0 && xr == g_->width && layout_ == nullptr)
         writer_.inside(w);
       else
         writer_.nc(xl, xr, w);
@@ -368,7 +369,7 @@ class Band {
   const FramePlan* f_;
   bool keeps_origins_;
   const FrameGeometry* g_;
-  const PolygonPlan* plan_;  // at the polygon level
+  const PolygonLayout* layout_;  // at the polygon level
   BandWork work_;
   int y0_ = 0;
   int y1_ = 0;

@@ -32,7 +32,7 @@ FramePlan prepare(const FrameGeometry& g, const Config& config) {
   std::vector<LineRange> edges;
   edges.reserve(g.near_edges.size());
   for (const NearEdge& e : g.near_edges) edges.push_back(lines_of(e.from, e.to));
-  TreePlan tree(g, config);
+  TreeLayout tree(g, config);
   std::vector<LineRange> ahead = tree.edge_lines();
   for (LineRange& r : ahead) --r.first, --r.end;
   std::vector<LineRange> fragments;
@@ -110,7 +110,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   check_fits(g, config);
   if (options.level == Level::polygons && config.active == 0)
     throw Error("the polygon level needs ACTIVE, which the configuration lacks");
-  const bool polygons = options.level == Level::polygons && PolygonPlan::fits(g);
+  const bool polygons = options.level == Level::polygons && PolygonLayout::fits(g);
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
   FrameHeader header{g.width, g.height, g.background, number};
@@ -122,10 +122,10 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
     writer.shade(g.shade);
   FramePlan frame = prepare(g, config);
   Arena arena(options.threads);
-  if (polygons) frame.plan.emplace(g, config, frame.tree.first_span_polygon(), arena);
+  if (polygons) frame.layout.emplace(g, config, frame.tree.first_span_polygon(), arena);
   PolygonReport report;
   report.polygons = polygons;
-  if (polygons) frame.plan->add_to(report);
+  if (polygons) frame.layout->add_to(report);
   const auto pass_on = [&](std::span<const std::uint32_t> some) {
     report.words += some.size();
     sink(some);

@@ -9,13 +9,13 @@
 #include "file/regular_file.hpp"
 #include "image/encoder.hpp"
 #include "image/memory.hpp"
-#include "image/module/table.hpp"
 #include "image/opening.hpp"
 #include "image/picture.hpp"
+#include "image/plugin/table.hpp"
 #include "image/png_reader.hpp"
 #include "kage/error.hpp"
 #include "kage/image.hpp"
-#include "module/foreign_code.hpp"
+#include "plugin/foreign_code.hpp"
 
 namespace kage {
 
@@ -94,8 +94,8 @@ std::unique_ptr<PictureReader> open_picture(const std::filesystem::path& path, i
   if (const std::uint64_t bytes = bytes_of_opening(path); bytes > 0)
     check_memory(fmt::format("{}: opening it takes", path.string()).c_str(), bytes, max_bytes);
   const ForeignCode mark(path.string() + ": reading it");
-  if (!has_module(PictureModule::kModule) && is_png(path)) return open_png(path, part, max_bytes);
-  return module_table<PictureModule>().open(path, part);
+  if (!has_plugin(PicturePlugin::kPlugin) && is_png(path)) return open_png(path, part, max_bytes);
+  return plugin_table<PicturePlugin>().open(path, part);
 }
 
 Picture whole_picture(PictureReader& reader) {
@@ -119,7 +119,7 @@ Picture load_picture(const std::filesystem::path& path, int part, std::optional<
 
 std::unique_ptr<ImageEncoder> encode_exr(OutputFile& out, const std::string& name, int width, int height,
                                          int channels) {
-  return module_table<PictureModule>().encode_exr(out, name, width, height, channels);
+  return plugin_table<PicturePlugin>().encode_exr(out, name, width, height, channels);
 }
 
 Image load_image(const std::filesystem::path& path) {

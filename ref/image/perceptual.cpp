@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "image/module/table.hpp"
+#include "image/plugin/table.hpp"
 #include "image/sample.hpp"
 #include "image/views.hpp"
 
@@ -42,7 +42,7 @@ std::optional<std::uint64_t> perceptual_pixels(const Picture& a, const Picture& 
   std::vector<float> colours_a = linear_colours(a, box);
   std::vector<float> colours_b = linear_colours(b, box);
   if (colours_a.empty() || colours_b.empty()) return {};
-  return module_table<PictureModule>().yee(box.width, box.height, colours_a.data(), colours_b.data());
+  return plugin_table<PicturePlugin>().yee(box.width, box.height, colours_a.data(), colours_b.data());
 }
 
 }  // namespace kage

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "image/picture.hpp"
-#include "module/foreign_code.hpp"
+#include "plugin/foreign_code.hpp"
 
 namespace kage {
 

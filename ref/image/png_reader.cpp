@@ -125,7 +125,7 @@ class PngReader : public PictureReader {
     note(chunks, wide ? 16 : 8);
   }
 
-  /// The notes that the picture module has of any file, in its order (image/module/read.cpp).
+  /// The notes that the picture plugin has of any file, in its order (image/plugin/read.cpp).
   void note(const PngChunks& chunks, int depth) {
     const int bits = chunks.bits == 0 ? depth : chunks.bits;
     std::string profile;

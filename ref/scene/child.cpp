@@ -22,8 +22,8 @@
 #include "answer.hpp"
 #include "file/regular_file.hpp"
 #include "kage/error.hpp"
-#include "module/module.hpp"
 #include "notes.hpp"
+#include "plugin/plugin.hpp"
 #include "wire.hpp"
 
 namespace kage::scene {
@@ -188,7 +188,7 @@ Bytes answer_of(const std::vector<std::string>& command, const std::string& name
   if (signal == SIGXCPU) throw Error(no_time);
   if (signal != 0) throw Error(name + ": killed by signal " + std::to_string(signal) + " while importing");
   if (o.status && WIFEXITED(*o.status) && WEXITSTATUS(*o.status) == kOtherVersion)
-    throw Error(name + ": " + command[0] + ": is not of kage " + kModuleVersion);
+    throw Error(name + ": " + command[0] + ": is not of kage " + kPluginVersion);
   Bytes& bytes = o.bytes;
   if (bytes.size() < 2 || bytes.back() != kDone) {
     const std::string code =
@@ -208,7 +208,7 @@ RawScene import_in_child(const std::filesystem::path& path, const std::string& n
   check_file(path, name);
   const ImportLimits limits = ImportLimits::from_environment();
   const std::string helper = helper_file(kImporter, "no file of a scene can be read without it").string();
-  const Bytes bytes = answer_of({helper, kModuleVersion, std::to_string(getpid()), std::to_string(limits.seconds),
+  const Bytes bytes = answer_of({helper, kPluginVersion, std::to_string(getpid()), std::to_string(limits.seconds),
                                  std::to_string(limits.mib), path.string(), name, allow_outside ? "1" : "0"},
                                 name, limits, wait);
   try {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Import runs in a process of its own, because no reader of forty formats survives every file: Assimp crashes, hangs or
-// eats all memory on some. The process is kage-import, a program that is installed beside the modules, and started by
+// eats all memory on some. The process is kage-import, a program that is installed beside the plugins, and started by
 // posix_spawn: a program with threads, which may hold any lock, can load a scene at any time.
 #pragma once
 

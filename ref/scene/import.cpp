@@ -8,7 +8,7 @@
 #include "file/extension.hpp"
 #include "kage/error.hpp"
 #include "notes.hpp"
-#include "scene/module/table.hpp"
+#include "scene/plugin/table.hpp"
 
 namespace kage::scene {
 namespace {
@@ -69,7 +69,7 @@ void check(const RawScene& scene, const std::string& name) {
 }
 
 RawScene import_assimp(const std::filesystem::path& path, const std::string& name, bool allow_outside) {
-  return module_table<MeshModule>().read(path, name, allow_outside);
+  return plugin_table<MeshPlugin>().read(path, name, allow_outside);
 }
 
 RawScene import_file(const std::filesystem::path& path, const std::string& name, bool allow_outside) {

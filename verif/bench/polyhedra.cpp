@@ -8,7 +8,7 @@
 
 #include "bench/timer.hpp"
 #include "frontend/sweep.hpp"
-#include "frontend/tree_plan.hpp"
+#include "frontend/tree_layout.hpp"
 #include "kage/geometry.hpp"
 #include "kage/stream.hpp"
 #include "stimulus/shapes.hpp"
@@ -73,12 +73,13 @@ int main() {
   config.seg_bits = 10;
   config.face_bits = 12;
   fmt::print(
-      "one body on {}x{}, one thread, least of 20 runs. Plan: faces, edges and units, with a scan of its own. Segments "
+      "one body on {}x{}, one thread, least of 20 runs. Layout: faces, edges and units, with a scan of its own. "
+      "Segments "
       "in bands of {} lines.\nFeeder: clocks of a line's SEGs, TREE and EOL at BEAT_WORDS 4, against the {} that the "
       "line takes at least\n",
       kWidth, kHeight, kBandLines, kWidth);
   fmt::print("{:>7} {:>6} {:>8} {:>9} {:>14} {:>8} {:>12} {:>11} {:>11} {:>13} {:>13}\n", "body", "faces", "visible",
-             "segments", "segments/line", "plan us", "segments us", "ns/segment", "words/line", "feeder clocks",
+             "segments", "segments/line", "layout us", "segments us", "ns/segment", "words/line", "feeder clocks",
              "times 1/20 s");
   const auto measure = [&](const char* what, const Solid& solid, std::size_t faces) {
     SceneFrame f;
@@ -89,15 +90,15 @@ int main() {
       fmt::print("{} {}: not one polyhedron of so many faces but {}\n", what, faces, f.polygons.size());
       return false;
     }
-    const double plan_seconds = bench::least_seconds(20, [&] { (void)TreePlan(g, config); });
-    const TreePlan plan(g, config);
+    const double plan_seconds = bench::least_seconds(20, [&] { (void)TreeLayout(g, config); });
+    const TreeLayout layout(g, config);
     std::vector<std::vector<std::uint32_t>> lines;
     std::size_t words = 0;
     const double seconds = bench::least_seconds(20, [&] {
       words = 0;
-      Sweep edges(kHeight / kBandLines, kHeight, plan.edge_lines());
+      Sweep edges(kHeight / kBandLines, kHeight, layout.edge_lines());
       for (int y = 0; y < kHeight; y += kBandLines) {
-        plan.segments(y, y + kBandLines, edges.next(), lines);
+        layout.segments(y, y + kBandLines, edges.next(), lines);
         for (const auto& l : lines) words += l.size();
       }
     });

@@ -38,13 +38,13 @@ struct Crc {
 }  // namespace
 
 void PackPlay::loop() {
-  const auto plan = plan_loop(pack_, verdict_.board);
-  if (!plan) {
+  const auto loop = loop_of(pack_, verdict_.board);
+  if (!loop) {
     verdict_.notes.emplace_back(
         "nothing is played over and over: the board has no room for the first frame, or it brings no line");
     return;
   }
-  const PackRun& run = *plan;
+  const PackRun& run = *loop;
   const bool screen = verdict_.board.has_screen();
   LoopVerdict& v = verdict_.loop.emplace();
   v.frames = run.frames;

@@ -65,7 +65,7 @@ std::string PackPlay::frames_text(const PackRun& run) const {
 
 void PackPlay::run() {
   get_ready();
-  const std::vector<PackRun> runs = plan_runs(pack_, verdict_.board, player_.port());
+  const std::vector<PackRun> runs = cut_into_runs(pack_, verdict_.board, player_.port());
   // The pack's register values are those of a core that got nothing but these frames since its reset.
   player_.restart();
   for (const PackRun& run : runs) {

@@ -11,7 +11,7 @@
 
 #include "board/pack_answers.hpp"
 #include "board/pack_run.hpp"
-#include "board/run_plan.hpp"
+#include "board/pack_runs.hpp"
 
 namespace kage::board {
 

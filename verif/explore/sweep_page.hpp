@@ -13,7 +13,7 @@
 
 #include "cosim/report/html.hpp"
 #include "explore/plot/pareto_plot.hpp"
-#include "explore/sweep_plan.hpp"
+#include "explore/sweep_points.hpp"
 #include "explore/sweep_scene.hpp"
 #include "file/temp_file.hpp"
 

@@ -14,7 +14,7 @@
 #include "cosim/model/model.hpp"
 #include "explore/kept.hpp"
 #include "explore/placement.hpp"
-#include "explore/sweep_plan.hpp"
+#include "explore/sweep_points.hpp"
 #include "explore/sweep_scene.hpp"
 #include "explore/synthesis.hpp"
 

@@ -16,7 +16,7 @@
 #include "explore/accuracy.hpp"
 #include "explore/error_map.hpp"
 #include "explore/screen_truth.hpp"
-#include "explore/sweep_plan.hpp"
+#include "explore/sweep_points.hpp"
 #include "kage/pipeline.hpp"
 
 namespace kage::explore {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "explore/placement.hpp"
-#include "explore/sweep_plan.hpp"
+#include "explore/sweep_points.hpp"
 #include "explore/sweep_run.hpp"
 #include "explore/sweep_scene.hpp"
 #include "kage/cosim.hpp"

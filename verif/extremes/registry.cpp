@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "extremes/coverage.hpp"
 #include "extremes/depth.hpp"
+#include "extremes/fill_rule.hpp"
 #include "extremes/lights.hpp"
 #include "extremes/numbers.hpp"
 #include "extremes/orders.hpp"
@@ -16,7 +16,7 @@ namespace {
 
 Families made() {
   Families all;
-  add_coverage_families(all);
+  add_fill_rule_families(all);
   add_depth_families(all);
   add_shadow_families(all);
   add_polyhedra_families(all);

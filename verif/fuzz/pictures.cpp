@@ -5,9 +5,9 @@
 
 #include "file/read_file.hpp"
 #include "fuzz/target.hpp"
-#include "image/module/lossless.hpp"
-#include "image/module/webp.hpp"
 #include "image/picture.hpp"
+#include "image/plugin/lossless.hpp"
+#include "image/plugin/webp.hpp"
 #include "image/png_chunks.hpp"
 #include "image/png_reader.hpp"
 #include "kage/error.hpp"
@@ -22,7 +22,7 @@ void run_head(Bytes bytes) {
     const auto path = file_of(name, bytes);
     (void)read_png_chunks(path);
     try {
-      picture_module::refuse_lossy_file(path);
+      picture_plugin::refuse_lossy_file(path);
     } catch (const Error&) {  // the next name may be taken
     }
   }
@@ -78,12 +78,12 @@ std::vector<std::string> png_seeds() {
 }
 
 void run_webp(Bytes bytes) {
-  const picture_module::WebpHead head = picture_module::webp_head("p.webp", bytes);
+  const picture_plugin::WebpHead head = picture_plugin::webp_head("p.webp", bytes);
   const std::uint64_t size =
       std::uint64_t{4} * static_cast<std::uint64_t>(head.width) * static_cast<std::uint64_t>(head.height);
   if (size > std::uint64_t{1} << 20) return;
   std::vector<std::byte> pixels(size);
-  picture_module::webp_pixels("p.webp", bytes, head, pixels);
+  picture_plugin::webp_pixels("p.webp", bytes, head, pixels);
 }
 
 /// One pixel of red, without loss, under alpha 0.

@@ -21,19 +21,19 @@ struct Judgement {
   std::uint64_t pixels = 0;
   std::uint64_t covered = 0;
   std::uint64_t shadowed = 0;  ///< by the oracle
-  std::uint64_t coverage_wrong = 0;
+  std::uint64_t cover_wrong = 0;
   std::uint64_t surface_near = 0;
   std::uint64_t surface_gross = 0;
   std::uint64_t shadow_near = 0;
   std::uint64_t shadow_gross = 0;
   std::string first_gross;
 
-  [[nodiscard]] bool good() const { return coverage_wrong == 0 && surface_gross == 0 && shadow_gross == 0; }
+  [[nodiscard]] bool good() const { return cover_wrong == 0 && surface_gross == 0 && shadow_gross == 0; }
   [[nodiscard]] std::string text() const {
     return fmt::format(
-        "{} pixels, {} covered, {} shadowed; coverage wrong {}; surface near ties {} gross {}; shadow near ties {} "
+        "{} pixels, {} covered, {} shadowed; cover wrong {}; surface near ties {} gross {}; shadow near ties {} "
         "gross {}{}{}",
-        pixels, covered, shadowed, coverage_wrong, surface_near, surface_gross, shadow_near, shadow_gross,
+        pixels, covered, shadowed, cover_wrong, surface_near, surface_gross, shadow_near, shadow_gross,
         first_gross.empty() ? "" : "; first: ", first_gross);
   }
 };
@@ -85,7 +85,7 @@ inline Judgement judge(FrameGeometry g, const Config& config, const std::functio
       ++j.pixels;
       if (truth.surface >= 0) ++j.covered;
       if (truth.shadowed) ++j.shadowed;
-      if ((seen < 0) != (truth.surface < 0)) ++j.coverage_wrong;
+      if ((seen < 0) != (truth.surface < 0)) ++j.cover_wrong;
       const Verdict surface = oracle.judge_surface(x, truth, seen);
       if (surface == Verdict::near_tie) ++j.surface_near;
       if (surface == Verdict::gross) ++j.surface_gross;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A bench of kage_axi for any simulator and any parameters. It reads the registers, and sends a frame without a token
+// A testbench of kage_axi for any simulator and any parameters. It reads the registers, and sends a frame without a token
 // in its lines and one for another core, both with stalls. It holds every pixel, the counters and the interrupt against
 // docs/stream.md. It needs no other program, as it takes the frame's parameter hash from the core.
 //

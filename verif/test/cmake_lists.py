@@ -9,8 +9,8 @@ from rooms import ABOVE, EXEMPT, JUDGES, PRODUCTS, is_below, may, place
 # A comment, a text, a parenthesis or a word.
 PIECE = re.compile(r'#[^\n]*|\[\[.*?\]\]|"(?:\\.|[^"\\])*"|[()]|[^\s()"#]+', re.S)
 PATH = re.compile(r"(?:\$\{\w+\}|[\w.*/+-])+")
-MAKE = ("add_library", "add_executable", "add_custom_target", "kage_executable", "kage_module")
-LINK = ("add_library", "add_executable", "kage_executable", "kage_module", "target_link_libraries", "target_sources")
+MAKE = ("add_library", "add_executable", "add_custom_target", "kage_executable", "kage_plugin")
+LINK = ("add_library", "add_executable", "kage_executable", "kage_plugin", "target_link_libraries", "target_sources")
 # Lists that put the build together: they may name every room.
 OF_THE_BUILD = ("CMakeLists.txt", "verif/CMakeLists.txt", "verif/long_tests.cmake")
 # Where names of includes begin. Includes are judged file by file.
@@ -100,7 +100,7 @@ def refused(path, text, lists, names, used=None):
             if of_a_room and not maker.startswith("cmake/") and not may_name(path, maker):
                 bad.add(f"links {word} of {maker}, which its room may not include")
         installed = (
-            words[1:] if name == "install" and words[0] == "TARGETS" else words[:1] if name == "kage_module" else []
+            words[1:] if name == "install" and words[0] == "TARGETS" else words[:1] if name == "kage_plugin" else []
         )
         bad |= {f"installs {w}, which is no product" for w in installed if not is_below(made_by.get(w, REF), PRODUCTS)}
     for name, target in named(path, text, names):
@@ -119,7 +119,7 @@ EXAMPLES = (  # each must be refused
     ("ref/CMakeLists.txt", "target_link_libraries(kage PRIVATE kage_cosim)"),
     ("ref/CMakeLists.txt", "add_subdirectory(../verif/stimulus)"),
     ("verif/cosim/CMakeLists.txt", "target_link_libraries(kage_cosim PUBLIC $<BUILD_INTERFACE:kage_session>)"),
-    ("verif/cosim/CMakeLists.txt", "kage_module(kage_more more kage_vectors)"),
+    ("verif/cosim/CMakeLists.txt", "kage_plugin(kage_more more kage_vectors)"),
     ("verif/cosim/session/CMakeLists.txt", "file(GLOB sources CONFIGURE_DEPENDS *.cpp ../regress/*.cpp)"),
     ("verif/cosim/session/CMakeLists.txt", "add_library(more STATIC $<TARGET_OBJECTS:kage_vectors>)"),
     ("verif/oracle/CMakeLists.txt", "kage_executable(draws SOURCES draws.cpp LIBS kage_private kage_cosim)"),
@@ -148,7 +148,7 @@ EXAMPLES = (  # each must be refused
     ("cmake/KageInstall.cmake", "install(PROGRAMS tools/fpga DESTINATION bin)"),
     ("CMakeLists.txt", "install(TARGETS kage kage_extremes RUNTIME DESTINATION bin)"),
     ("verif/fuzz/CMakeLists.txt", "install(TARGETS kage_fuzz_replay RUNTIME DESTINATION bin)"),
-    ("verif/mutants/CMakeLists.txt", "kage_module(kage_more more)"),
+    ("verif/mutants/CMakeLists.txt", "kage_plugin(kage_more more)"),
 )
 
 

@@ -42,7 +42,7 @@ EXAMPLES = (  # changed files, tests that they concern, tests that they do not
     ("verif/test/support/fake_board.cpp", "cli/board", "cli/diff"),
     ("verif/test/support/import_answers.cpp", "unit/scene/import", "cli/diff"),
     ("ref/include/kage/golden.h", "examples/c python/module unit/bind/golden_c", "cli/diff"),
-    ("ref/module/module.cpp", "cli/modules", "rtl/tmds"),
+    ("ref/plugin/plugin.cpp", "cli/plugins", "rtl/tmds"),
     ("scenes/courtyard.gltf", "scene/builtin cli/cosim", "rtl/tmds"),
     ("docs/lights.md", "contract/links docs/families", "unit/geometry/light"),
 )

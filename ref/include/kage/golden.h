@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 
 /** @file
- * The golden core as a C library, libkage_golden.so: for test benches in C, for SystemVerilog by DPI-C, and for any
+ * The golden core as a C library, libkage_golden.so: for testbenches in C, for SystemVerilog by DPI-C, and for any
  * language that calls C. A frame's words go in; after each token the state of every pixel of the line can be read, and
- * each line's pixels as they leave. docs/benches.md has examples, docs/stream.md is the contract.
+ * each line's pixels as they leave. docs/testbenches.md has examples, docs/stream.md is the contract.
  *
  * Types are those that DPI-C maps:
  * - kage_golden* is chandle,

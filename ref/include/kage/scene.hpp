@@ -194,7 +194,7 @@ class Scene {
  public:
   /// Loads a file (glTF 2.0, OBJ, PLY, STL, OFF, or what else Assimp reads), or a built-in scene. Throws Error that
   /// names file, place and cause. The file is read by a process of its own, kage-import, which is installed beside
-  /// kage's modules, with limits of time and memory; its death is an Error like any other. Several threads may load at
+  /// kage's plugins, with limits of time and memory; its death is an Error like any other. Several threads may load at
   /// once, whatever others do. Intensities of lights are scaled by one factor, the same in all frames. With it, light
   /// that meets a surface head-on from all of them adds up to 1 in the largest channel. That sum is taken at the middle
   /// of the scene, in the first frame, cones and ranges aside.

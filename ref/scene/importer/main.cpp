@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <string_view>
 
-#include "module/module.hpp"
+#include "plugin/plugin.hpp"
 #include "scene/answer.hpp"
 #include "scene/import.hpp"
 #include "scene/wire.hpp"
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     std::fputs("kage-import reads files of scenes for other programs of kage\n", stderr);
     return 2;
   }
-  if (std::string_view(argv[1]) != kage::kModuleVersion) return kage::scene::kOtherVersion;
+  if (std::string_view(argv[1]) != kage::kPluginVersion) return kage::scene::kOtherVersion;
   const kage::scene::ImportLimits limits{std::atoi(argv[3]), std::atoll(argv[4])};
   const std::string name = argv[6];
   kage::scene::answer(std::atoi(argv[2]), name, limits, [&] {

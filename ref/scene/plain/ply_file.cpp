@@ -80,23 +80,23 @@ class PlyReader {
 
  private:
   /// How an element's properties are read.
-  struct Plan {
+  struct Reading {
     std::vector<Role> roles;
     std::size_t indices = 0;  // the property with a face's vertices, behind the last where there is none
     [[nodiscard]] bool has(Role role) const { return std::count(roles.begin(), roles.end(), role) > 0; }
     [[nodiscard]] bool has_color() const { return has(Role::kRed) || has(Role::kGreen) || has(Role::kBlue); }
   };
-  Plan plan_of(const PlyElement& element, bool of_faces);
+  Reading reading_of(const PlyElement& element, bool of_faces);
   /// One element: of the roles, `row` gets the values, colours from 0 to 1; a face's vertices go to `list_`.
-  void read_row(const PlyElement& element, const Plan& plan, std::array<double, 11>& row);
+  void read_row(const PlyElement& element, const Reading& reading, std::array<double, 11>& row);
   void read_list(const PlyProperty& property, bool wanted);
   std::uint32_t vertex(std::int64_t number) const;
   void read_vertices(const PlyElement& element);
   void read_faces(const PlyElement& element);
   void read_strips(const PlyElement& element);
   void add_strip();
-  void color_faces(const Plan& plan, const std::array<double, 11>& row, std::size_t first);
-  void read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to);
+  void color_faces(const Reading& reading, const std::array<double, 11>& row, std::size_t first);
+  void read_color(const Reading& reading, const std::array<double, 11>& row, std::vector<float>& to);
   void skip(const PlyElement& element);
   void write_notes();
 
@@ -142,42 +142,42 @@ RawScene PlyReader::run() {
   return std::move(scene_);
 }
 
-PlyReader::Plan PlyReader::plan_of(const PlyElement& element, bool of_faces) {
-  Plan plan;
-  plan.indices = element.properties.size();
+PlyReader::Reading PlyReader::reading_of(const PlyElement& element, bool of_faces) {
+  Reading reading;
+  reading.indices = element.properties.size();
   std::vector<std::string> ignored;
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& p = element.properties[i];
     const bool is_list = p.count != PlyType::kNone;
     Role role = is_list ? Role::kNone : role_of(p.name);
     if (of_faces && role < Role::kRed) role = Role::kNone;
-    if (role != Role::kNone && (plan.has(role) || lacks_others(element, role))) role = Role::kNone;
-    plan.roles.push_back(role);
+    if (role != Role::kNone && (reading.has(role) || lacks_others(element, role))) role = Role::kNone;
+    reading.roles.push_back(role);
     if (of_faces && is_list && (p.name == "vertex_indices" || p.name == "vertex_index")) {
-      if (plan.indices != element.properties.size())
+      if (reading.indices != element.properties.size())
         throw Error(lines_.file() + ": element " + element.name + " has both vertex_indices and vertex_index");
-      plan.indices = i;
+      reading.indices = i;
     } else if (role == Role::kNone && !is_of_textures(p.name)) {
       ignored.push_back("property " + one_line(p.name, 40) + " of element " + element.name);
     }
   }
   ignored_.insert(ignored_.end(), ignored.begin(), ignored.end());
-  if (!of_faces) return plan;
-  if (plan.indices == element.properties.size())
+  if (!of_faces) return reading;
+  if (reading.indices == element.properties.size())
     throw Error(lines_.file() + ": element " + element.name + " has no list vertex_indices");
-  if (!is_integer(element.properties[plan.indices].type))
+  if (!is_integer(element.properties[reading.indices].type))
     throw Error(lines_.file() + ": the numbers in vertex_indices of element " + element.name + " are not whole");
-  return plan;
+  return reading;
 }
 
-void PlyReader::read_row(const PlyElement& element, const Plan& plan, std::array<double, 11>& row) {
+void PlyReader::read_row(const PlyElement& element, const Reading& reading, std::array<double, 11>& row) {
   for (std::size_t i = 0; i < element.properties.size(); ++i) {
     const PlyProperty& p = element.properties[i];
     if (p.count != PlyType::kNone) {
-      read_list(p, i == plan.indices);
+      read_list(p, i == reading.indices);
       continue;
     }
-    const Role role = plan.roles[i];
+    const Role role = reading.roles[i];
     // Normals that are not finite are replaced by those of faces, and what is ignored may be anything.
     const bool counts = role != Role::kNone && (role < Role::kNormalX || role > Role::kNormalZ);
     double v = counts ? values_.finite(p.type) : values_.value(p.type);
@@ -203,14 +203,14 @@ std::uint32_t PlyReader::vertex(std::int64_t number) const {
 }
 
 void PlyReader::read_vertices(const PlyElement& element) {
-  const Plan plan = plan_of(element, false);
+  const Reading reading = reading_of(element, false);
   for (const auto& [role, name] : {std::pair{Role::kX, "x"}, {Role::kY, "y"}, {Role::kZ, "z"}})
-    if (!plan.has(role)) throw Error(fmt::format("{}: element vertex has no property {}", lines_.file(), name));
-  const bool has_normals = plan.has(Role::kNormalX) && plan.has(Role::kNormalY) && plan.has(Role::kNormalZ);
+    if (!reading.has(role)) throw Error(fmt::format("{}: element vertex has no property {}", lines_.file(), name));
+  const bool has_normals = reading.has(Role::kNormalX) && reading.has(Role::kNormalY) && reading.has(Role::kNormalZ);
   std::array<double, 11> row{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
     values_.begin(element, i);
-    read_row(element, plan, row);
+    read_row(element, reading, row);
     for (std::size_t k = 0; k < 3; ++k) {
       const auto position = static_cast<float>(row[k]);
       if (!std::isfinite(position)) values_.fail("a position is too large");
@@ -218,13 +218,13 @@ void PlyReader::read_vertices(const PlyElement& element) {
     }
     if (has_normals)
       for (std::size_t k = 3; k < 6; ++k) mesh_.normals.push_back(static_cast<float>(row[k]));
-    read_color(plan, row, mesh_.colors);
+    read_color(reading, row, mesh_.colors);
   }
 }
 
 /// Reads red, green and blue; those that the file lacks are 0.
-void PlyReader::read_color(const Plan& plan, const std::array<double, 11>& row, std::vector<float>& to) {
-  if (!plan.has_color()) return;
+void PlyReader::read_color(const Reading& reading, const std::array<double, 11>& row, std::vector<float>& to) {
+  if (!reading.has_color()) return;
   bool bright = false;
   bool dark = false;
   for (const Role role : {Role::kRed, Role::kGreen, Role::kBlue}) {
@@ -235,39 +235,39 @@ void PlyReader::read_color(const Plan& plan, const std::array<double, 11>& row, 
   }
   bright_ += bright ? 1 : 0;
   dark_ += dark ? 1 : 0;
-  alphas_ += plan.has(Role::kAlpha) && row[static_cast<std::size_t>(Role::kAlpha)] < 1 ? 1 : 0;
+  alphas_ += reading.has(Role::kAlpha) && row[static_cast<std::size_t>(Role::kAlpha)] < 1 ? 1 : 0;
 }
 
 void PlyReader::read_faces(const PlyElement& element) {
-  const Plan plan = plan_of(element, true);
+  const Reading reading = reading_of(element, true);
   std::array<double, 11> row{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
     values_.begin(element, i);
-    read_row(element, plan, row);
+    read_row(element, reading, row);
     for (const std::int64_t number : list_) mesh_.corners.push_back(vertex(number));
     mesh_.ends.push_back(static_cast<std::uint32_t>(mesh_.corners.size()));
-    color_faces(plan, row, mesh_.face_count() - 1);
+    color_faces(reading, row, mesh_.face_count() - 1);
   }
 }
 
 /// The faces from the first on get the row's colour, and those before them that have none white.
-void PlyReader::color_faces(const Plan& plan, const std::array<double, 11>& row, std::size_t first) {
+void PlyReader::color_faces(const Reading& reading, const std::array<double, 11>& row, std::size_t first) {
   std::vector<float>& colors = mesh_.face_colors;
-  if (first == mesh_.face_count() || !plan.has_color()) return;
+  if (first == mesh_.face_count() || !reading.has_color()) return;
   colors.resize(3 * first, 1);
-  read_color(plan, row, colors);
+  read_color(reading, row, colors);
   while (colors.size() < 3 * mesh_.face_count()) colors.push_back(colors[colors.size() - 3]);
 }
 
 void PlyReader::read_strips(const PlyElement& element) {
-  const Plan plan = plan_of(element, true);
+  const Reading reading = reading_of(element, true);
   std::array<double, 11> row{};
   for (std::uint64_t i = 0; i < element.count; ++i) {
     values_.begin(element, i);
-    read_row(element, plan, row);
+    read_row(element, reading, row);
     const std::size_t first = mesh_.face_count();
     add_strip();
-    color_faces(plan, row, first);
+    color_faces(reading, row, first);
   }
 }
 

@@ -17,9 +17,9 @@
 #include "kage/core.hpp"
 #include "kage/error.hpp"
 #include "kage/registers.h"
-#include "module/foreign_code.hpp"
 #include "number/mixed.hpp"
 #include "pipeline/stopwatch.hpp"
+#include "plugin/foreign_code.hpp"
 
 namespace kage::cosim {
 namespace {

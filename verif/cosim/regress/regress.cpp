@@ -21,15 +21,15 @@ Regress::Regress(const RegressOptions& o, Host& host, Cores& cores)
   for (const std::string& name : o_.configs) configs_.push_back(load_config(name));
 }
 
-std::vector<PlannedRun> Regress::list(int rounds) const {
-  std::vector<PlannedRun> all;
+std::vector<RoundRun> Regress::list(int rounds) const {
+  std::vector<RoundRun> all;
   for (int round = 0; round < rounds; ++round)
-    for (PlannedRun& run : plan_round(configs_, round, o_)) all.push_back(std::move(run));
+    for (RoundRun& run : runs_of_round(configs_, round, o_)) all.push_back(std::move(run));
   return all;
 }
 
 void Regress::prepare() {
-  (void)plan_round(configs_, 0, o_);
+  (void)runs_of_round(configs_, 0, o_);
   for (NamedConfig c : configs_) {
     host_.check();
     (void)give_front_end(o_.level.value_or(Level::spans), c.config);
@@ -63,7 +63,7 @@ void Regress::look_into(TempFiles& files) {
   } catch (const Interrupted&) {
     interrupt();
   } catch (const std::exception& e) {
-    note(fmt::format("{} was not repeated: {}", done_.at(first_).plan.name, e.what()));
+    note(fmt::format("{} was not repeated: {}", done_.at(first_).run.name, e.what()));
   }
 }
 
@@ -79,7 +79,7 @@ report::RunRecord Regress::record() const {
   if (all.scenes.empty() && trouble_) throw Error(trouble_->text);
   if (all.scenes.empty()) throw Interrupted{};  // nothing else keeps the first run from its end
   all.regress = {.again = o_.again,
-                 .rounds = done_.rbegin()->second.plan.round + 1,  // of the runs that are told
+                 .rounds = done_.rbegin()->second.run.round + 1,  // of the runs that are told
                  .seed = o_.seed,
                  .seconds = seconds_,
                  .build_seconds = build_seconds_,
@@ -90,8 +90,8 @@ report::RunRecord Regress::record() const {
 
 void Regress::repeat(TempFiles& files) {
   Done& d = done_.at(first_);
-  const std::filesystem::path folder = std::filesystem::path(o_.out) / d.plan.name;
-  CosimOptions again = d.plan.options;
+  const std::filesystem::path folder = std::filesystem::path(o_.out) / d.run.name;
+  CosimOptions again = d.run.options;
   again.out = again_folder(folder);
   again.lines = command_lines(again);
   again.out = folder.string();
@@ -100,23 +100,23 @@ void Regress::repeat(TempFiles& files) {
   scene.prepare(1);
   scene.run(0);
   report::SceneRecord record = scene.finish(files);
-  record.scene = d.plan.name;
+  record.scene = d.run.name;
   notes_ = scene.notes();
   interrupted_ = interrupted_ || scene.interrupted();
   if (record.same) {
-    notes_.push_back(fmt::format("{}: run again it comes out the same", d.plan.name));
+    notes_.push_back(fmt::format("{}: run again it comes out the same", d.run.name));
     return;
   }
   d.record = std::move(record);
   folder_ = folder.string();
 }
 
-std::optional<std::pair<int, PlannedRun>> Regress::next() {
+std::optional<std::pair<int, RoundRun>> Regress::next() {
   const std::lock_guard lock(mutex_);
   if (stopped_ || end_ != kNone || time_is_over()) return std::nullopt;
   if (at_ == round_.size()) {
     if (o_.rounds != 0 && rounds_ == o_.rounds) return std::nullopt;
-    round_ = plan_round(configs_, rounds_++, o_);
+    round_ = runs_of_round(configs_, rounds_++, o_);
     at_ = 0;
   }
   return std::pair(given_++, round_[at_++]);
@@ -125,12 +125,11 @@ std::optional<std::pair<int, PlannedRun>> Regress::next() {
 void Regress::work() {
   try {
     while (auto job = next()) {
-      const auto& [place, plan] = *job;
+      const auto& [place, run] = *job;
       try {
-        run_one(place, plan);
+        run_one(place, run);
       } catch (const std::exception& e) {
-        end_by({place, plan.name, plan.config,
-                fmt::format("{} (configuration {}): {}", plan.name, plan.config, e.what())});
+        end_by({place, run.name, run.config, fmt::format("{} (configuration {}): {}", run.name, run.config, e.what())});
       }
     }
   } catch (const Interrupted&) {
@@ -151,8 +150,8 @@ void Regress::end_by(Trouble trouble) {
   trouble_ = std::move(trouble);
 }
 
-void Regress::run_one(int index, PlannedRun plan) {
-  CosimOptions o = plan.options;
+void Regress::run_one(int index, RoundRun run) {
+  CosimOptions o = run.options;
   o.no_report = o.no_divergence = o.silent = true;
   o.threads = 1;  // of this run; the others have the processors
   o.enough = [this, index] { return time_is_over() || index > end_; };
@@ -161,7 +160,7 @@ void Regress::run_one(int index, PlannedRun plan) {
   scene.run(0);
   TempFiles none;
   report::SceneRecord record = scene.finish(none);
-  record.scene = plan.name;
+  record.scene = run.name;
   record.each.clear();  // too many to tell
   record.frame_seconds.clear();
   const std::lock_guard lock(mutex_);
@@ -170,7 +169,7 @@ void Regress::run_one(int index, PlannedRun plan) {
     first_ = std::min(first_, index);
     end_ = std::min(end_.load(), index);
   }
-  done_.emplace(index, Done{std::move(plan), std::move(record)});
+  done_.emplace(index, Done{std::move(run), std::move(record)});
 }
 
 }  // namespace kage::cosim

@@ -17,7 +17,7 @@
 #include <utility>
 #include <vector>
 
-#include "cosim/regress/plan.hpp"
+#include "cosim/regress/rounds.hpp"
 #include "cosim/report/run_record.hpp"
 #include "cosim/session/cores.hpp"
 #include "file/temp_file.hpp"
@@ -42,7 +42,7 @@ class Regress {
   Regress(const RegressOptions& o, Host& host, Cores& cores = rtl_cores());
 
   /// The runs of the first rounds.
-  [[nodiscard]] std::vector<PlannedRun> list(int rounds) const;
+  [[nodiscard]] std::vector<RoundRun> list(int rounds) const;
 
   /// Builds what models are missing; then the time begins.
   void prepare();
@@ -80,7 +80,7 @@ class Regress {
   using Clock = std::chrono::steady_clock;
   static constexpr int kNone = std::numeric_limits<int>::max();
   struct Done {
-    PlannedRun plan;
+    RoundRun run;
     report::SceneRecord record;
   };
 
@@ -88,9 +88,9 @@ class Regress {
   [[nodiscard]] double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   [[nodiscard]] bool time_is_over() const { return o_.rounds == 0 && seconds() >= 60 * o_.minutes; }
   /// The next run, and its place; nothing once no more are wanted.
-  std::optional<std::pair<int, PlannedRun>> next();
+  std::optional<std::pair<int, RoundRun>> next();
   void work();
-  void run_one(int index, PlannedRun plan);
+  void run_one(int index, RoundRun run);
   void end_by(Trouble trouble);
 
   const RegressOptions& o_;
@@ -106,7 +106,7 @@ class Regress {
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::vector<PlannedRun> round_;
+  std::vector<RoundRun> round_;
   std::size_t at_ = 0;  // in it
   int rounds_ = 0;      // begun
   int given_ = 0;       // runs

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "cosim/report/html.hpp"
-#include "explore/plot/module/table.hpp"
-#include "module/foreign_code.hpp"
+#include "explore/plot/plugin/table.hpp"
+#include "plugin/foreign_code.hpp"
 
 namespace kage::plot {
 namespace {
@@ -78,12 +78,12 @@ std::string svg_of(const Text& text) {
 
 }  // namespace
 
-void load() { module_table<PlotModule>(); }
+void load() { plugin_table<PlotPlugin>(); }
 
 double width_of(std::string_view text, double size, bool bold) {
-  const PlotModule& module = module_table<PlotModule>();
+  const PlotPlugin& plugin = plugin_table<PlotPlugin>();
   const ForeignCode mark("the plots: Cairo and fontconfig");
-  return module.width(text, size, bold);
+  return plugin.width(text, size, bold);
 }
 
 std::string to_svg(const Drawing& drawing) {
@@ -98,9 +98,9 @@ std::string to_svg(const Drawing& drawing) {
 }
 
 Image to_image(const Drawing& drawing, double scale) {
-  const PlotModule& module = module_table<PlotModule>();
+  const PlotPlugin& plugin = plugin_table<PlotPlugin>();
   const ForeignCode mark("the plots: Cairo and fontconfig");
-  return module.image(drawing, scale);
+  return plugin.image(drawing, scale);
 }
 
 }  // namespace kage::plot

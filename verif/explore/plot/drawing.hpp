@@ -79,17 +79,17 @@ struct Drawing {
   std::vector<std::variant<Line, Mark, Text>> shapes;
 };
 
-/// Opens the module of plots, which the functions below need. Throws Error if it cannot be opened.
+/// Opens the plugin of plots, which the functions below need. Throws Error if it cannot be opened.
 void load();
 
-/// How wide a text is. Throws Error if the module of plots cannot be opened.
+/// How wide a text is. Throws Error if the plugin of plots cannot be opened.
 double width_of(std::string_view text, double size, bool bold);
 
 /// Well-formed XML, with text as text. Colours are attributes, those of a dark screen a style: where no style is known,
 /// and on paper, it is light. Each text has its measured width, so that another font covers no other text.
 std::string to_svg(const Drawing& drawing);
 
-/// On the light background, `scale` pixels for a unit. Throws Error if the module of plots cannot be opened.
+/// On the light background, `scale` pixels for a unit. Throws Error if the plugin of plots cannot be opened.
 Image to_image(const Drawing& drawing, double scale);
 
 }  // namespace kage::plot

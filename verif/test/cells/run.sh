@@ -30,7 +30,7 @@ for cell in $modelled; do
   grep -qE "^ *$cell " "$work/netlist.v" || fail "$cell: yosys makes none of pieces.sv, so RTL does not check its model"
 done
 
-# Prints what the benches say; true if both passed.
+# Prints what the testbenches say; true if both passed.
 play() { # CELLS
   local said
   iverilog -g2012 -DNO_ICE40_DEFAULT_ASSIGNMENTS -o "$work/cells.vvp" -s cells_tb "$here/${family}_tb.sv" "$1" "$work/tool.v" 2>"$work/iverilog.log" || { cat "$work/iverilog.log"; return 1; }
@@ -42,7 +42,7 @@ play() { # CELLS
 }
 play "$cells" || fail "a model is not what it stands for"
 
-# ---- damage: each defect of defects.yaml in the family's models, and a bench must fail by it ----
+# ---- damage: each defect of defects.yaml in the family's models, and a testbench must fail by it ----
 n=0
 [ "${2:-}" = --damage ] || { echo "run.sh: $family: $(wc -w <<<"$modelled") cells as they should be"; exit 0; }
 defects=(/usr/bin/python3 -B "$top/verif/cosim/model/driver/defects.py" "$here/defects.yaml")

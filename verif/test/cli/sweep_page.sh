@@ -159,7 +159,7 @@ trouble "two outputs have this name" "$kage" sweep courtyard "${quick[@]}" --sto
 [ ! -e no.sqlite ] && [ ! -e same ] || fail "trouble leaves something"
 expect 0 "$kage" sweep courtyard "${quick[@]}" --list --store no.sqlite --out listed
 [ ! -e listed ] || fail "--list makes a folder"
-KAGE_MODULE_DIR=$PWD/nowhere trouble "plots are drawn with it" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --store no.sqlite --out unplotted
+KAGE_PLUGIN_DIR=$PWD/nowhere trouble "plots are drawn with it" "$kage" sweep courtyard "${quick[@]}" --axes Z_BITS=8 --store no.sqlite --out unplotted
 [ ! -e unplotted ] || fail "a page without plots"
 no_leftovers
 done_testing

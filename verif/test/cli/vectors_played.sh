@@ -50,7 +50,7 @@ lines_of "$source/docs/vectors.md" | cmp -s - lines || fail "docs/vectors.md and
 sed -i "s,RTL/,$source/rtl/,g; s/--binary/& -CFLAGS -O0/" lines
 (cd p && bash -e ../lines >said 2>build)
 [ "$(grep -c '^kage_pack_tb: passed: ' p/said)" = 2 ] || { fail "the README's lines: $(grep '^kage_pack_tb' p/said)"; tail -n5 p/build; }
-# A netlist of the least core, whose file takes the RTL's place. The bench itself is Verilog-2005, where slang is.
+# A netlist of the least core, whose file takes the RTL's place. The testbench itself is Verilog-2005, where slang is.
 make t random:mixed --frames 3 --config tiny --seed 5 --no-rtl
 sets=$(python3 -c 'import yaml; print(*(f"-chparam {k} {v}" for k, v in yaml.safe_load(open("'"$source"'/rtl/defs/configs.yaml"))["tiny"].items()))')
 yosys -q -p "read_verilog -defer -sv -I$source/rtl/include $source/rtl/*.sv; hierarchy -top kage_top $sets; proc; flatten; opt; rename -top kage_top; write_verilog -noattr t/net.v" >t/build 2>&1
@@ -59,7 +59,7 @@ grep -q '^kage_pack_tb: passed: ' t/said || { fail "a netlist: $(tail -n3 t/said
 # Where files are missing nothing passes.
 mkdir bare
 (cd bare && vvp -N ../p/pack.vvp) >said 2>&1
-grep -q '^kage_pack_tb: FAILED: a .hex file is missing or short' said || fail "a bench without its files: $(tail -n1 said)"
+grep -q '^kage_pack_tb: FAILED: a .hex file is missing or short' said || fail "a testbench without its files: $(tail -n1 said)"
 cp -r p cut && head -n 4 p/registers.hex >cut/registers.hex
 played cut "$source/rtl" "FAILED: a .hex file is missing or short"
 # In C the tables compile as they are.

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds the C example as docs/benches.md says and runs it: sound, with each defect, and on what it must refuse.
+# Builds the C example as docs/testbenches.md says and runs it: sound, with each defect, and on what it must refuse.
 # usage: run_c.sh KAGE SOURCE LIBRARY_FOLDER [COMPILER_FLAG...]
 . "$(dirname "$0")/../cli/common.bash"
 library=$3
@@ -11,7 +11,7 @@ cc -std=c99 -O2 -Wall -Wextra -Wpedantic -Werror "${flags[@]}" -I"$source/ref/in
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config default --out courtyard.kage
 expect 0 ./pixel_check courtyard.kage
 grep -qE '^same: 2 frames, [0-9]{4,} tokens, [0-9]{6,} values checked$' stdout || fail "does not say same: $(cat stdout)"
-grep -qxF "$(cat stdout)" "$source/docs/benches.md" || fail "docs/benches.md shows another line"
+grep -qxF "$(cat stdout)" "$source/docs/testbenches.md" || fail "docs/testbenches.md shows another line"
 cat stdout
 expect 0 "$kage" stream inside --size 64x48 --frames 2 --config default --out inside.kage # the eye in a shadow: NC and IF
 expect 0 ./pixel_check inside.kage
@@ -23,7 +23,7 @@ told() {
   expect 1 ./pixel_check courtyard.kage "$2"
   grep -qE "^different: frame 0, line [0-9]+, token [0-9]+ \($1, expected" <(sed 's/: expected/, expected/' stdout) ||
     fail "$2: $(cat stdout)"
-  grep -qxF "$(cat stdout)" "$source/docs/benches.md" || [ "$2" = flag ] || fail "docs/benches.md shows another line"
+  grep -qxF "$(cat stdout)" "$source/docs/testbenches.md" || [ "$2" = flag ] || fail "docs/testbenches.md shows another line"
   cat stdout
 }
 told 'OP \[.*\), pixel [0-9]*[13579], field z' depth

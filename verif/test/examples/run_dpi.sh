@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Builds the DPI-C example with Verilator as docs/benches.md says and runs it: sound, with each defect, and on what it must refuse.
+# Builds the DPI-C example with Verilator as docs/testbenches.md says and runs it: sound, with each defect, and on what it must refuse.
 # usage: run_dpi.sh KAGE SOURCE LIBRARY_FOLDER [LINKER_FLAG...]
 . "$(dirname "$0")/../cli/common.bash"
 library=$3
@@ -27,7 +27,7 @@ refused() {
 }
 refused 'different: frame 0, line [0-9]+, token [0-9]+ \(OP .*\), pixel [0-9]*[13579], field z: expected' +stream=courtyard.kage +defect=depth
 refused 'different: frame 0, line [0-9]+, token [0-9]+ \(EV .*\), pixel [0-9]+, field dsf: expected' +stream=courtyard.kage +defect=flag
-grep -qxF "$(grep -o 'different: .*' said)" "$source/docs/benches.md" || fail "docs/benches.md shows another line"
+grep -qxF "$(grep -o 'different: .*' said)" "$source/docs/testbenches.md" || fail "docs/testbenches.md shows another line"
 refused 'defect=nonsense: not depth or flag' +stream=courtyard.kage +defect=nonsense
 refused 'nowhere.kage: no such file' +stream=nowhere.kage
 expect 0 "$kage" stream courtyard --size 65x8 --frames 1 --config default --out wide.kage

@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "extremes/campaign.hpp"
-#include "extremes/coverage.hpp"
 #include "extremes/depth.hpp"
+#include "extremes/fill_rule.hpp"
 #include "extremes/found.hpp"
 #include "extremes/polyhedra.hpp"
 #include "extremes/shadows.hpp"

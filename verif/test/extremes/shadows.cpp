@@ -28,7 +28,7 @@ TEST_CASE("family 21: with near and far caps the toggles of every volume sum to 
   }
 }
 
-TEST_CASE("family 21: coverage, surface and shadow are the oracle's at every pixel of random scenes") {
+TEST_CASE("family 21: covered pixels, surface and shadow are the oracle's at every pixel of random scenes") {
   Random random(test_seed(2));
   CAPTURE(test_seed(2));
   for (int i = 0; i < 120; ++i) {

@@ -289,7 +289,7 @@ void segments() {
     in.end = hw::u<kX>(end);
     in.depth = hw::s<kDepth>(z);
     in.step = hw::s<kDepth>(step);
-    // [ref/frontend/tree_plan.cpp: pieces of most_dx pixels from the run's first one on]
+    // [ref/frontend/tree_layout.cpp: pieces of most_dx pixels from the run's first one on]
     for (int from = at; from < end; ++done) {
       kage::hls::SegmentMakeOut<kX, kDx, kDepth> out;
       kage::hls::segment_make(in, out);

@@ -73,9 +73,9 @@ shows docs/order.md verif/test/package/order.cpp
 mv "$temp/prefix" "$temp/moved"
 if [ -x "$temp/moved/bin/kage" ]; then
   cd "$temp"
-  # Its own modules, though those of the build are there too.
-  for module in pictures meshes; do
-    [ -n "$(find moved -path "*/kage/libkage_$module.so")" ] || { echo "not installed: libkage_$module.so" >&2; exit 1; }
+  # Its own plugins, though those of the build are there too.
+  for plugin in pictures meshes; do
+    [ -n "$(find moved -path "*/kage/libkage_$plugin.so")" ] || { echo "not installed: libkage_$plugin.so" >&2; exit 1; }
   done
   [ -n "$(find moved -path "*/kage/kage-import" -executable)" ] || { echo "not installed: kage-import" >&2; exit 1; }
   env -u KAGE_DATA_DIR moved/bin/kage cosim courtyard --size 64x48 --frames 1 --out pictures
@@ -103,5 +103,5 @@ if [ -x "$temp/moved/bin/kage" ]; then
   grep -q no_such_fault said || { cat said >&2; exit 1; }
   unset KAGE_DATA_DIR
   LD_DEBUG=files LD_DEBUG_OUTPUT=$temp/bound moved/bin/kage diff courtyard.ppm pictures/courtyard_0000.png
-  grep -q "calling init: $temp/moved/.*/libkage_pictures.so" "$temp"/bound.* || { echo "an installed kage opens another's module" >&2; exit 1; }
+  grep -q "calling init: $temp/moved/.*/libkage_pictures.so" "$temp"/bound.* || { echo "an installed kage opens another's plugin" >&2; exit 1; }
 fi

@@ -20,7 +20,7 @@ for sets in "MAX_WIDTH=24" "BEAT_WORDS=1 MAX_WIDTH=8 LANES=1 CHANNELS=1" "ARRANG
   # shellcheck disable=SC2086 # a word a parameter
   if ! run $sets || ! grep -q '^kage_axi_tb: passed: ' vvp.log; then echo "$sets: not passed"; tail -3 vvp.log; bad=1; fi
 done
-# defect WORDS FILE SED-EXPRESSION: the bench says so
+# defect WORDS FILE SED-EXPRESSION: the testbench says so
 defect() {
   sed -i "$3" "rtl/$2"
   if cmp -s "rtl/$2" "$source/rtl/$2"; then echo "$3 changes nothing"; bad=1; fi

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The built-in scenes: every frame's coverage, surfaces and shadows against the oracle and against rays, and polyhedra
-// by segments against spans.
+// The built-in scenes: every frame's covered pixels, surfaces and shadows against the oracle and against rays, and
+// polyhedra by segments against spans.
 #include <string>
 
 #include "oracle/judge.hpp"
@@ -11,7 +11,7 @@
 
 namespace kage::verif {
 
-TEST_CASE("built-in scenes: coverage, surfaces and shadows are the oracle's in every frame") {
+TEST_CASE("built-in scenes: covered pixels, surfaces and shadows are the oracle's in every frame") {
   for (const std::string& name : builtin_scenes()) {
     const Scene scene = Scene::load(name);
     Judgement sum;

@@ -23,7 +23,7 @@ Config wide() {
 
 }  // namespace
 
-TEST_CASE("real meshes: coverage, surfaces and shadows are the oracle's") {
+TEST_CASE("real meshes: covered pixels, surfaces and shadows are the oracle's") {
   for (const char* file : {"horse.3ds", "bunny.obj", "cat.3ds", "asteroid-high.3ds", "asteroid-low.3ds"}) {
     const std::string path = glmark2(file);
     if (!present(path)) continue;
@@ -44,7 +44,7 @@ TEST_CASE("real meshes: coverage, surfaces and shadows are the oracle's") {
   }
 }
 
-TEST_CASE("the meshes of CGAL's demo below 50000 faces: coverage, surfaces and shadows are the oracle's") {
+TEST_CASE("the meshes of CGAL's demo below 50000 faces: covered pixels, surfaces and shadows are the oracle's") {
   const std::string archive = kCgalMeshes;
   if (!present(archive)) return;
   const auto dir = std::filesystem::temp_directory_path() / ("kage-meshes-" + std::to_string(::getpid()));

@@ -91,7 +91,7 @@ TEST_CASE("defects: edges of polyhedra moved by 1 to 4 subpixels from their outl
       }
       const Judgement j = judge(g, eight_units());
       INFO(j.text());
-      CHECK(j.coverage_wrong + j.surface_gross > 5);
+      CHECK(j.cover_wrong + j.surface_gross > 5);
     }
 }
 

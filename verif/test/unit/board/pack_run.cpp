@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "board/connection.hpp"
-#include "board/run_plan.hpp"
+#include "board/pack_runs.hpp"
 #include "board/sim_board.hpp"
 #include "contract/config_text.hpp"
 #include "kage/config.hpp"
@@ -308,7 +308,7 @@ TEST_CASE("a register that is wrong is named") {
 
 TEST_CASE("memory that gives other words is to blame, and not the core") {
   FakeBoard board(config());
-  const auto runs = plan_runs(
+  const auto runs = cut_into_runs(
       fixture().pack,
       [] {
         Identity id;
@@ -578,7 +578,7 @@ TEST_CASE("a screen's counts are told, and a run has frames of one height") {
   CHECK(v.link_good > 50);
   CHECK(v.link_good < 5000);
   CHECK(v.link_bad == 0);
-  for (const PackRun& run : plan_runs(fixture().pack, v.board, "PORT"))
+  for (const PackRun& run : cut_into_runs(fixture().pack, v.board, "PORT"))
     for (std::uint64_t i = run.first; i < run.end(); ++i)
       CHECK((fixture().pack.frames[i].pixels() == 0 || fixture().pack.frames[i].status.height == run.height));
 }

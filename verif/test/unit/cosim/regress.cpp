@@ -35,12 +35,12 @@ report::RunRecord go(const RegressOptions& o, Cores& cores) {
 }  // namespace
 
 TEST_CASE("a round has each configuration with each sort of frames") {
-  const auto runs = plan_round({load_config("tiny"), load_config("glass")}, 0, {});
+  const auto runs = runs_of_round({load_config("tiny"), load_config("glass")}, 0, {});
   std::vector<std::string> names;
-  for (const PlannedRun& r : runs) names.push_back(r.name);
+  for (const RoundRun& r : runs) names.push_back(r.name);
   REQUIRE(names == std::vector<std::string>{"random.tiny.0", "random.glass.0", "mixed.tiny.0", "mixed.glass.0",
                                             "damaged.tiny.0", "damaged.glass.0", "courtyard.tiny.0", "knot.glass.0"});
-  for (const PlannedRun& r : runs) {
+  for (const RoundRun& r : runs) {
     CHECK(r.options.jobs == 1);
     CHECK(r.options.out.empty());
     CHECK(r.options.lines.again.find(r.options.config) != std::string::npos);
@@ -52,7 +52,7 @@ TEST_CASE("each scene meets each configuration in as many rounds as there are sc
   std::set<std::pair<std::string, std::string>> met;
   std::set<std::pair<int, int>> stalls;
   for (int round = 0; round < static_cast<int>(builtin_scenes().size()); ++round)
-    for (const PlannedRun& r : plan_round(configs, round, {})) {
+    for (const RoundRun& r : runs_of_round(configs, round, {})) {
       const auto& all = builtin_scenes();
       if (std::find(all.begin(), all.end(), r.options.input) != all.end()) met.emplace(r.options.input, r.config);
       stalls.emplace(r.options.rtl.idle, r.options.rtl.backpressure);
@@ -63,11 +63,11 @@ TEST_CASE("each scene meets each configuration in as many rounds as there are sc
 
 TEST_CASE("a front end gets polygons, unless the level is named") {
   RegressRun how;
-  const auto level = [&] { return plan_round({load_config("polygons")}, 0, how).front().options.level; };
+  const auto level = [&] { return runs_of_round({load_config("polygons")}, 0, how).front().options.level; };
   CHECK(level() == Level::polygons);
   how.level = Level::spans;
   CHECK(level() == Level::spans);
-  CHECK(plan_round({load_config("tiny")}, 0, {}).front().options.level == Level::spans);
+  CHECK(runs_of_round({load_config("tiny")}, 0, {}).front().options.level == Level::spans);
 }
 
 TEST_CASE("right cores: all runs are told, in their order") {
@@ -117,5 +117,5 @@ TEST_CASE("trouble ends it, with the run's name; of the very first run nothing i
 TEST_CASE("two configurations of one name are refused") {
   NamedConfig other = load_config("tiny");
   other.name = "elsewhere/tiny.yaml";
-  REQUIRE_THROWS_AS(plan_round({load_config("tiny"), other}, 0, {}), Error);
+  REQUIRE_THROWS_AS(runs_of_round({load_config("tiny"), other}, 0, {}), Error);
 }

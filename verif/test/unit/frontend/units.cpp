@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "extremes/screen.hpp"
-#include "frontend/tree_plan.hpp"
+#include "frontend/tree_layout.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/tree_frames.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// kage's own reader of PNG against the picture module's, which is OpenImageIO's: every kind of pixel that PNG has,
+// kage's own reader of PNG against the picture plugin's, which is OpenImageIO's: every kind of pixel that PNG has,
 // interlaced or not, with colours that are transparent; chunks that say what values mean; damaged files.
 #include "image/png_reader.hpp"
 
@@ -15,7 +15,7 @@
 
 #include "../../support/catch.hpp"
 #include "../../support/temp_directory.hpp"
-#include "image/module/table.hpp"
+#include "image/plugin/table.hpp"
 #include "kage/error.hpp"
 #include "stimulus/png_chunk.hpp"
 
@@ -73,7 +73,7 @@ void write(const std::string& path, const Kind& kind, int width, int height, boo
 
 void hold(const std::string& path) {
   const auto own = open_png(path, -1);
-  const auto other = module_table<PictureModule>().open(path, -1);
+  const auto other = plugin_table<PicturePlugin>().open(path, -1);
   const Picture a = whole_picture(*own);
   const Picture b = whole_picture(*other);
   CHECK(a.width == b.width);
@@ -93,7 +93,7 @@ void hold(const std::string& path) {
   }
 }
 
-TEST_CASE("every kind of PNG is read as the picture module reads it") {
+TEST_CASE("every kind of PNG is read as the picture plugin reads it") {
   const test::TempDirectory temp;
   unsigned seed = 1;
   for (const Kind& kind : kKinds)

@@ -11,7 +11,7 @@
 #include <thread>
 
 #include "files.hpp"
-#include "module/module.hpp"
+#include "plugin/plugin.hpp"
 #include "scene/child.hpp"
 #include "scene/wire.hpp"
 #include "test/support/catch.hpp"
