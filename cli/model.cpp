@@ -80,13 +80,17 @@ void add_model(Program& program, Action& action) {
   c.add_option("CONFIG", o->configs, "names in rtl/defs/configs.yaml or YAML files, default: all names")
       .take_all()
       .type_name("NAME|FILE");
-  c.add_option(
-       "--plan", o->planned,
-       "a scene: the model of the configuration that --config plan takes for it; more than once for more scenes")
-      .take_all()
-      .expected(1)
-      .type_name("SCENE");
+  const Option plan =
+      c.add_option(
+           "--plan", o->planned,
+           "a scene: the model of the configuration that --config plan takes for it; more than once for more scenes")
+          .take_all()
+          .expected(1)
+          .type_name("SCENE");
+  const std::size_t others = c.options().size();
   options_of_pictures(c, *o);
+  const std::vector<Option> all = c.options();
+  for (std::size_t i = others; i < all.size(); ++i) Option(all[i]).needs(plan);
   option_fault(c, o->fault);
   option_netlist(c, o->netlist);
   option_front_end(c, *o);

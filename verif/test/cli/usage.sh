@@ -41,6 +41,7 @@ line "kage: SCENE: its value is empty; see kage render --help" "$kage" render ""
 line "kage: --out: its value is empty; see kage render --help" "$kage" render courtyard --out ""
 line "kage: --json: its value is missing; see kage cosim --help" "$kage" cosim courtyard --json=
 line "kage: CONFIG: its value is empty; see kage model --help" "$kage" model ""
+line "kage: --size requires --plan; see kage model --help" "$kage" model default --size 64x48
 # Standard output is a file for --json, for --csv and for a stream alone.
 line "kage: --junit: - is no file's name here, ./- is one; see kage cosim --help" "$kage" cosim courtyard --junit -
 line "kage: --out: - is no file's name here, ./- is one; see kage render --help" "$kage" render courtyard --out -
