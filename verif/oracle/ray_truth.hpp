@@ -76,7 +76,7 @@ struct RayCount {
   }
 };
 
-/// A scene's frame for rays: every polygon as a fan of triangles, each with a ball round it, so that most are passed by
+/// A scene's frame for rays: every polygon as a fan of triangles, in a tree of boxes, so that most are passed by
 /// quickly.
 class RayScene {
  public:
@@ -84,24 +84,19 @@ class RayScene {
     for (std::uint32_t p = 0; p < f.polygons.size(); ++p) {
       opaque_.push_back(f.triangles[f.polygons[p].triangle].alpha == 255);
       const auto outline = f.outline(f.polygons[p]);
-      for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
-        Face face;
-        face.polygon = p;
-        face.corner = {f.vertices[outline[0]], f.vertices[outline[i]], f.vertices[outline[i + 1]]};
-        face.centre = (face.corner[0] + face.corner[1] + face.corner[2]) / 3.0;
-        for (const glm::dvec3& c : face.corner) face.radius2 = std::max(face.radius2, dot2(c - face.centre));
-        face.radius2 *= 1.0001;
-        faces_.push_back(face);
-      }
+      for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+        faces_.push_back({p, {f.vertices[outline[0]], f.vertices[outline[i]], f.vertices[outline[i + 1]]}});
     }
+    if (!faces_.empty()) build(0, faces_.size());
   }
 
   /// The polygon that the line origin + t direction meets first from t = `least` on, and t; kNothing if there is none.
+  /// If several are at one t, it is the first.
   [[nodiscard]] std::pair<double, std::uint32_t> nearest(const glm::dvec3& origin, const glm::dvec3& direction,
                                                          double least) const {
     std::pair<double, std::uint32_t> found{INFINITY, kNothing};
     meet(origin, direction, [&](double t, std::uint32_t face) {
-      if (t >= least && t < found.first) found = {t, face};
+      if (t >= least) found = std::min(found, {t, face});
     });
     return found;
   }
@@ -119,26 +114,21 @@ class RayScene {
   /// Calls hit(t, polygon) for every polygon that the line origin + t direction meets.
   template <typename Hit>
   void meet(const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) const {
-    const double d2 = dot2(direction);
-    for (const Face& face : faces_) {
-      const glm::dvec3 to = face.centre - origin;
-      const double along = glm::dot(to, direction);
-      if (dot2(to) * d2 - along * along > face.radius2 * d2 * 1.0001 + 1e-9 * dot2(to) * d2) continue;
-      const glm::dvec3 e1 = face.corner[1] - face.corner[0];
-      const glm::dvec3 e2 = face.corner[2] - face.corner[0];
-      const glm::dvec3 n = glm::cross(e1, e2);
-      const double nd = glm::dot(n, direction);
-      if (nd == 0) continue;
-      const double t = glm::dot(n, face.corner[0] - origin) / nd;
-      // Inside if the direction passes all three edges on the same side.
-      const auto side = [&](std::size_t a, std::size_t b) {
-        return glm::dot(direction, glm::cross(face.corner[a] - origin, face.corner[b] - origin));
-      };
-      const double s0 = side(0, 1);
-      const double s1 = side(1, 2);
-      const double s2 = side(2, 0);
-      if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0)) hit(t, face.polygon);
+    for (std::size_t i = 0; i < nodes_.size();) {
+      const Node& node = nodes_[i];
+      if (!node.met_by(origin, direction)) {
+        i = node.past;
+        continue;
+      }
+      for (std::size_t k = node.first; k < node.first + node.count; ++k) meet(faces_[k], origin, direction, hit);
+      ++i;
     }
+  }
+
+  /// Likewise, each polygon by itself, without the tree: to hold the tree against.
+  template <typename Hit>
+  void meet_each(const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) const {
+    for (const Face& face : faces_) meet(face, origin, direction, hit);
   }
 
  private:
@@ -147,10 +137,85 @@ class RayScene {
   struct Face {
     std::uint32_t polygon = 0;
     std::array<glm::dvec3, 3> corner{};
-    glm::dvec3 centre{};
-    double radius2 = 0;
+    [[nodiscard]] glm::dvec3 middle() const { return (corner[0] + corner[1] + corner[2]) / 3.0; }
   };
+
+  /// A ball and a box round faces, both a little too large, so that rounding passes by none. Nodes stand in the order
+  /// in which they are visited.
+  struct Node {
+    glm::dvec3 low{INFINITY, INFINITY, INFINITY}, high{-INFINITY, -INFINITY, -INFINITY};
+    std::size_t past = 0;              // the next node if the line passes this one by
+    std::size_t first = 0, count = 0;  // of its own faces; none if it has nodes below it
+
+    [[nodiscard]] bool met_by(const glm::dvec3& origin, const glm::dvec3& direction) const {
+      const glm::dvec3 centre = (low + high) * 0.5;
+      const glm::dvec3 to = centre - origin;
+      const double d2 = dot2(direction);
+      const double along = glm::dot(to, direction);
+      const double radius2 = dot2(high - centre);
+      if (dot2(to) * d2 - along * along > radius2 * d2 * 1.0001 + 1e-9 * dot2(to) * d2) return false;
+      double from = -INFINITY;
+      double until = INFINITY;
+      for (int k = 0; k < 3; ++k) {
+        const double slack = 1e-9 * (std::abs(low[k]) + std::abs(high[k]) + std::abs(origin[k])) + 1e-300;
+        const double a = low[k] - slack - origin[k];
+        const double b = high[k] + slack - origin[k];
+        if (direction[k] == 0) {
+          if (a > 0 || b < 0) return false;
+          continue;
+        }
+        from = std::max(from, std::min(a / direction[k], b / direction[k]));
+        until = std::min(until, std::max(a / direction[k], b / direction[k]));
+      }
+      return from <= until;
+    }
+  };
+
+  template <typename Hit>
+  static void meet(const Face& face, const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) {
+    const glm::dvec3 n = glm::cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
+    const double nd = glm::dot(n, direction);
+    if (nd == 0) return;
+    // Inside if the direction passes all three edges on the same side.
+    const auto side = [&](std::size_t a, std::size_t b) {
+      return glm::dot(direction, glm::cross(face.corner[a] - origin, face.corner[b] - origin));
+    };
+    const double s0 = side(0, 1);
+    const double s1 = side(1, 2);
+    const double s2 = side(2, 0);
+    if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))
+      hit(glm::dot(n, face.corner[0] - origin) / nd, face.polygon);
+  }
+
+  /// The node of the faces begin .. end - 1, and those below it: halves by their middles along the longest side.
+  void build(std::size_t begin, std::size_t end) {
+    constexpr std::size_t kLeaf = 4;
+    const std::size_t at = nodes_.size();
+    nodes_.emplace_back();
+    for (std::size_t i = begin; i < end; ++i)
+      for (const glm::dvec3& c : faces_[i].corner)
+        for (int k = 0; k < 3; ++k) {
+          nodes_[at].low[k] = std::min(nodes_[at].low[k], c[k]);
+          nodes_[at].high[k] = std::max(nodes_[at].high[k], c[k]);
+        }
+    if (end - begin <= kLeaf) {
+      nodes_[at].first = begin;
+      nodes_[at].count = end - begin;
+    } else {
+      const glm::dvec3 size = nodes_[at].high - nodes_[at].low;
+      const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+      const std::size_t half = begin + (end - begin) / 2;
+      const auto place = [&](std::size_t i) { return faces_.begin() + static_cast<std::ptrdiff_t>(i); };
+      std::nth_element(place(begin), place(half), place(end),
+                       [axis](const Face& a, const Face& b) { return a.middle()[axis] < b.middle()[axis]; });
+      build(begin, half);
+      build(half, end);
+    }
+    nodes_[at].past = nodes_.size();
+  }
+
   std::vector<Face> faces_;
+  std::vector<Node> nodes_;
   std::vector<bool> opaque_;  // by polygon
 };
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Words and clocks that pages tell are those that benchmarks count: a page's table is the benchmark's, and each number of a
+"""Words, clocks and errors of light that pages tell are those that benchmarks count: a page's table is the benchmark's, and each number of a
 sentence is one that a benchmark prints. Nothing is timed, so all is the same on every machine.
 
 usage: counted.py SOURCE_DIR FOLDER_OF_BENCHMARKS
@@ -58,6 +58,7 @@ def numbers(page, begin, name, scenes):
 
 
 rows("docs/stream.md", "polygon_level")
+rows("docs/lights.md", "lights")
 rows("docs/shadows.md", "phases", "courtyard", "knot", "fifteen", "glass")
 numbers("docs/rtl.md", "It keeps up.", "front_end", ["courtyard"])
 for line in wrong:

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes by whose light a picture is judged: white bodies on a white floor, and the lights that an approximation gets
+// wrong first. For tests and benchmarks.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kage/scene.hpp"
+
+namespace kage::verif {
+
+/// A scene, and what is hard in it.
+struct LitScene {
+  std::string name;   ///< "three-lamps"
+  std::string about;  ///< in a few words
+  SceneParts parts;
+};
+
+/// One light, several of a kind, cones, ranges, a window before a table, eight lamps of an office, and a floor of two
+/// triangles. The same on every machine.
+std::vector<LitScene> lit_scenes();
+
+/// Two blocks on a table, and a window beside it whose middle is `height` above the table's top. Below 1 a part of the
+/// window is behind the table's face: its lower edge is at height - 1.
+LitScene table_and_window(double height);
+
+}  // namespace kage::verif
