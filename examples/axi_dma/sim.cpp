@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The bench of kage_dma: a memory behind its AXI4 ports, and a processor that is this program. The driver's reads and
-// writes are AXI4-Lite transactions, its wait is the interrupt line. All frames of a pack are drawn, sound and
+// The testbench of kage_dma: a memory behind its AXI4 ports, and a processor that is this program. The driver's reads
+// and writes are AXI4-Lite transactions, its wait is the interrupt line. All frames of a pack are drawn, sound and
 // malformed; then the output and the memory stand still on purpose. Afterwards the pixels in memory are compared with
 // the pack's.
 //

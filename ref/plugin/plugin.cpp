@@ -140,8 +140,9 @@ const PluginHead* open_plugin(const std::string& name, const std::string& what_f
     const char* const cause = dlerror();
     const std::string text = cause == nullptr ? "no cause was given" : cause;
     const std::string prefix = path.string() + ": ";
-    throw Error(fmt::format("{}: {}, and {}", path.string(),
-                            text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text, what_for));
+    throw Error(fmt::format("{}: {}, and {}{}", path.string(),
+                            text.rfind(prefix, 0) == 0 ? text.substr(prefix.size()) : text, what_for,
+                            named_folder().empty() ? "" : "; KAGE_PLUGIN_DIR names the folder"));
   }
   using Function = const PluginHead* (*)();
   const auto function = reinterpret_cast<Function>(dlsym(handle, (name + "_table").c_str()));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Error of light that the classes of a table of several lights make, by the number of normals that the table tells
-// apart. It is taken against a class for each pixel, which has the same law of shares. And the cost of a light's samples.
-// 320x240, the scene's own frames; errors in LSB of a channel, over pixels in some shadow.
+// apart. It is taken against a class for each pixel, which has the same law of shares. And the cost of a light's
+// samples. 320x240, the scene's own frames; errors in LSB of a channel, over pixels in some shadow.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far the light of pictures, as kage render draws them, is from the reference (verif/oracle/light_reference.hpp).
-// 320x240; errors in LSB of a channel: mean and worst over pixels in some shadow, then over all others.
+// 320x240; errors in LSB of a channel: mean and worst over pixels in some shadow, then over those of faces that are in
+// none.
 #include <fmt/format.h>
 
 #include "kage/geometry.hpp"
@@ -8,7 +9,7 @@
 #include "kage/pipeline.hpp"
 #include "oracle/judge.hpp"
 #include "oracle/light_reference.hpp"
-#include "stimulus/lit_scenes.hpp"
+#include "stimulus/scenes/lit_scenes.hpp"
 
 namespace {
 
@@ -27,8 +28,8 @@ LightReference<RayScene>::Points points_of(const SceneFrame& f, const Look& look
 }
 
 void reference_errors() {
-  fmt::print("{:17} {:13} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6}\n", "scene", "configuration", "shadowed", "mean", "worst",
-             "else", "worst", "dB");
+  fmt::print("{:17} {:13} {:>5} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6}\n", "scene", "configuration", "ties", "shadowed",
+             "mean", "worst", "else", "worst", "dB");
   for (const LitScene& lit : lit_scenes()) {
     const Scene scene = Scene::from(lit.parts);
     DrawOptions options{.width = kWidth, .height = kHeight};
@@ -38,8 +39,8 @@ void reference_errors() {
     const LightReference reference(f, rays, points_of(f, options.look), kWidth, kHeight);
     const FrameGeometry g = make_geometry(f, chosen.config, kWidth, kHeight, {.look = options.look});
     const LightError e = compare_light(draw(g, chosen.config), kWidth, kHeight, reference);
-    fmt::print("{:17} {:13} {:8} {:6.2f} {:6.1f} {:6.2f} {:6.1f} {:6.1f}\n", lit.name, chosen.name, e.shadowed,
-               e.mean(), e.worst, e.lit_mean(), e.lit_worst, e.psnr());
+    fmt::print("{:17} {:13} {:5} {:8} {:6.2f} {:6.1f} {:6.2f} {:6.1f} {:6.1f}\n", lit.name, chosen.name, e.ties,
+               e.shadowed, e.mean(), e.worst, e.lit_mean(), e.lit_worst, e.psnr());
   }
 }
 

@@ -25,7 +25,8 @@ Config config_of(const SweepOptions& o, const std::shared_ptr<const Scene>& scen
                  cosim::Host& host) {
   if (o.config.empty()) return choose_config(*scene, draw).config;
   if (o.config != cosim::kPlanned) return load_config(o.config).config;
-  cosim::SourceOptions of = o;
+  const cosim::SourceOptions& own = o;
+  cosim::SourceOptions of = own;
   of.frames = draw.frames;
   return cosim::planned_config(of, scene, host).config;
 }

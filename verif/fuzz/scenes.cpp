@@ -78,7 +78,7 @@ std::vector<std::string> ply_seeds() {
   const std::string head =
       "property float x\nproperty float y\nproperty float z\nproperty uchar red\nproperty uchar green\n"
       "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
-  std::string points(3 * 15, '\0');
+  std::string points(45, '\0');
   points[3] = points[18] = '\x3f';
   return {"ply\nformat ascii 1.0\ncomment c\nelement vertex 3\n" + head +
               "0 0 0 255 0 0\n1 0 0 0 255 0\n0 1 0 0 0 255\n3 0 1 2\n",

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The picture that kage's stated model of light asks for (docs/lights.md, "What a light sends where"), worked out at
-// each pixel by itself in double precision. Each light, and each point of an area light, is there or hidden by exact
-// rays; what arrives is added in linear light and encoded once. Nothing of kage's geometry, shading or tables goes in.
+// each pixel by itself in double precision. Each light, and each point of an area light, is there or hidden by rays;
+// what arrives is added in linear light and encoded once. The scene goes in as it is loaded: places, normals, colours,
+// lights. Nothing of kage's geometry, shading or tables does. Points of an area light are the caller's: those that kage
+// samples, so that only their light is judged, or a grid.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +13,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <span>
+#include <utility>
 #include <vector>
 
 #include "kage/scene.hpp"
@@ -53,7 +55,8 @@ inline glm::dvec3 reference_arrives(const Light& light, const LightPoint& at, co
 /// @param side an area light has side * side of them; a ball has them over the disc that `from` sees
 inline std::vector<LightPoint> reference_points(const Light& light, int side, const glm::dvec3& from) {
   std::vector<LightPoint> points;
-  if (light.shape == LightShape::point || light.directional || side < 2) return {light};
+  const LightPoint& middle = light;
+  if (light.shape == LightShape::point || light.directional || side < 2) return {middle};
   glm::dvec3 u = light.axis_u;
   glm::dvec3 v = light.axis_v;
   if (light.shape == LightShape::sphere) {
@@ -65,7 +68,7 @@ inline std::vector<LightPoint> reference_points(const Light& light, int side, co
   }
   for (int i = 0; i < side; ++i)
     for (int k = 0; k < side; ++k) {
-      LightPoint p = light;
+      LightPoint p = middle;
       const double a = (i + 0.5) / side;
       const double b = (k + 0.5) / side;
       if (light.shape == LightShape::rectangle) {
@@ -81,11 +84,11 @@ inline std::vector<LightPoint> reference_points(const Light& light, int side, co
 
 /// A pixel of the reference.
 struct ReferencePixel {
-  std::uint32_t face = kNothing;   ///< of SceneFrame::polygons: what is seen
-  glm::dvec3 color{0, 0, 0};       ///< displayed, 0 .. 255 a channel, not rounded
-  glm::dvec3 unshadowed{0, 0, 0};  ///< likewise, if nothing hid a light
-  bool shadowed = false;           ///< a point of a light that shines on this side of the face, or would, is hidden
-  bool tie = false;                ///< a ray beside this one finds another face, or another shadow
+  std::uint32_t face = kNothing;  ///< of SceneFrame::polygons: what is seen
+  glm::dvec3 color{0, 0, 0};      ///< displayed, 0 .. 255 a channel, not rounded
+  std::vector<bool> hidden;       ///< each point of each light in turn: light of it would arrive, and is kept out
+  bool shadowed = false;          ///< some point is hidden
+  bool tie = false;               ///< a ray beside this one finds another face, or other points hidden
 };
 
 /// Refers to the frame and the rays.
@@ -101,19 +104,14 @@ class LightReference {
       : f_(&f), rays_(&rays), points_(std::move(points)), width_(width), height_(height) {}
 
   /// The middle of a pixel.
-  [[nodiscard]] ReferencePixel pixel(int x, int y) const {
-    const PixelRay ray = pixel_ray(f_->camera, x, y, width_, height_);
-    return along(ray);
-  }
+  [[nodiscard]] ReferencePixel pixel(int x, int y) const { return along(pixel_ray(f_->camera, x, y, width_, height_)); }
 
   /// Likewise, and whether rays `off` of a pixel to each side of it see the same face and the same points of lights.
   [[nodiscard]] ReferencePixel pixel_with_ties(int x, int y, double off) const {
     ReferencePixel p = pixel(x, y);
-    std::vector<bool> hidden = last_hidden_;
     for (const auto& [dx, dy] : {std::pair{-off, -off}, {off, -off}, {-off, off}, {off, off}}) {
-      const PixelRay ray = moved(x, y, dx, dy);
-      const ReferencePixel q = along(ray);
-      if (q.face != p.face || last_hidden_ != hidden) p.tie = true;
+      const ReferencePixel q = along(moved(x, y, dx, dy));
+      p.tie = q.face != p.face || q.hidden != p.hidden;
       if (p.tie) break;
     }
     return p;
@@ -164,35 +162,29 @@ class LightReference {
 
   [[nodiscard]] ReferencePixel along(const PixelRay& ray) const {
     ReferencePixel p;
-    last_hidden_.clear();
     const auto [t, face] = rays_->nearest(ray.origin, ray.direction, f_->camera.near);
     p.face = face;
     if (face == kNothing) return p;
     const glm::dvec3 point = ray.origin + t * ray.direction;
     const Surface s = surface(face, point, ray.direction);
     if (f_->triangles[f_->polygons[face].triangle].unlit) {
-      p.color = p.unshadowed = encoded(s.base);
+      p.color = encoded(s.base);
       return p;
     }
     const double dark = kReferenceAmbient + kReferenceSky * 0.5 * (1 + glm::dot(s.normal, f_->camera.up));
-    glm::dvec3 seen(dark);
-    glm::dvec3 all(dark);
+    glm::dvec3 sum(dark);
     for (std::size_t l = 0; l < f_->lights.size(); ++l)
       for (const LightPoint& at : points_[l]) {
         const glm::dvec3 to = at.directional ? -at.direction : at.position - point;
-        if (!(glm::dot(to, s.of_plane) > 0)) continue;  // the face has its back to it
+        const bool before = glm::dot(to, s.of_plane) > 0;  // else the face has its back to it
         const glm::dvec3 arrives = reference_arrives(f_->lights[l], at, point, s.normal) * (1 - kReferenceAmbient) /
                                    static_cast<double>(points_[l].size());
-        all += arrives;
-        const bool hidden = rays_->blocked(point, to, at.directional ? INFINITY : 1, face);
-        last_hidden_.push_back(hidden);
-        if (hidden)
-          p.shadowed = true;
-        else
-          seen += arrives;
+        const bool shines = before && std::max({arrives.x, arrives.y, arrives.z}) > 0;
+        p.hidden.push_back(shines && rays_->blocked(point, to, at.directional ? INFINITY : 1, face));
+        p.shadowed = p.shadowed || p.hidden.back();
+        if (shines && !p.hidden.back()) sum += arrives;
       }
-    p.color = encoded(s.base * seen);
-    p.unshadowed = encoded(s.base * all);
+    p.color = encoded(s.base * sum);
     return p;
   }
 
@@ -204,11 +196,10 @@ class LightReference {
   const Rays* rays_;
   Points points_;
   int width_, height_;
-  mutable std::vector<bool> last_hidden_;  // of the last ray: for each point that may shine on the face
 };
 
-/// How far a picture's colours are from the reference, in steps of 1/255, over pixels that show the face which the
-/// reference shows, ties apart.
+/// How far a picture's colours are from the reference, in steps of 1/255, over pixels where the reference sees a face.
+/// A picture that shows another face there is that far off, too; ties are left out.
 struct LightError {
   std::uint64_t pixels = 0;    ///< that are compared: no background
   std::uint64_t shadowed = 0;  ///< of these, in some shadow

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The truth about an unsnapped scene by rays, in double precision and by brute force. It is the surface that a pixel's
-// centre sees, and whether a face other than its own stands between it and the light. Nothing of kage's geometry goes
-// in. Where the picture differs, the oracle says whether moving every snapped vertex by half a step of the snap can
-// make the rays' answer of kage's geometry; if not, the picture is wrong.
+// The truth about an unsnapped scene by rays, in double precision, through a tree of boxes. It is the surface that a
+// pixel's centre sees, and whether a face other than its own stands between it and the light. Nothing of kage's
+// geometry goes in. Where the picture differs, the oracle says whether moving every snapped vertex by half a step of
+// the snap can make the rays' answer of kage's geometry; if not, the picture is wrong.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -104,35 +107,41 @@ class RayScene {
   /// Whether an opaque polygon other than `own` crosses the line at 0 < t < reach.
   [[nodiscard]] bool blocked(const glm::dvec3& origin, const glm::dvec3& direction, double reach,
                              std::uint32_t own) const {
-    bool found = false;
-    meet(origin, direction, [&](double t, std::uint32_t face) {
-      if (face != own && opaque_[face] && t > 0 && t < reach) found = true;
-    });
-    return found;
+    return any(origin, direction,
+               [&](double t, std::uint32_t face) { return face != own && opaque_[face] && t > 0 && t < reach; });
   }
 
-  /// Calls hit(t, polygon) for every polygon that the line origin + t direction meets.
+  /// Calls hit(t, polygon) for every triangle of a polygon that the line origin + t direction meets, in no order.
   template <typename Hit>
   void meet(const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) const {
+    any(origin, direction, [&](double t, std::uint32_t face) { return hit(t, face), false; });
+  }
+
+  /// Likewise, each triangle by itself, without the tree: to hold the tree against.
+  template <typename Hit>
+  void meet_each(const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) const {
+    for (const Face& face : faces_)
+      meets(face, origin, direction, [&](double t, std::uint32_t p) { return hit(t, p), false; });
+  }
+
+ private:
+  static double dot2(const glm::dvec3& v) { return glm::dot(v, v); }
+
+  /// Whether a triangle that the line meets is what is looked for: looks_for(t, polygon). The rest is not asked then.
+  template <typename LooksFor>
+  bool any(const glm::dvec3& origin, const glm::dvec3& direction, LooksFor&& looks_for) const {
     for (std::size_t i = 0; i < nodes_.size();) {
       const Node& node = nodes_[i];
       if (!node.met_by(origin, direction)) {
         i = node.past;
         continue;
       }
-      for (std::size_t k = node.first; k < node.first + node.count; ++k) meet(faces_[k], origin, direction, hit);
+      for (std::size_t k = node.first; k < node.first + node.count; ++k)
+        if (meets(faces_[k], origin, direction, looks_for)) return true;
       ++i;
     }
+    return false;
   }
-
-  /// Likewise, each polygon by itself, without the tree: to hold the tree against.
-  template <typename Hit>
-  void meet_each(const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) const {
-    for (const Face& face : faces_) meet(face, origin, direction, hit);
-  }
-
- private:
-  static double dot2(const glm::dvec3& v) { return glm::dot(v, v); }
 
   struct Face {
     std::uint32_t polygon = 0;
@@ -171,11 +180,12 @@ class RayScene {
     }
   };
 
-  template <typename Hit>
-  static void meet(const Face& face, const glm::dvec3& origin, const glm::dvec3& direction, Hit&& hit) {
+  /// Whether the line meets the triangle, and looks_for(t, polygon).
+  template <typename LooksFor>
+  static bool meets(const Face& face, const glm::dvec3& origin, const glm::dvec3& direction, LooksFor&& looks_for) {
     const glm::dvec3 n = glm::cross(face.corner[1] - face.corner[0], face.corner[2] - face.corner[0]);
     const double nd = glm::dot(n, direction);
-    if (nd == 0) return;
+    if (nd == 0) return false;
     // Inside if the direction passes all three edges on the same side.
     const auto side = [&](std::size_t a, std::size_t b) {
       return glm::dot(direction, glm::cross(face.corner[a] - origin, face.corner[b] - origin));
@@ -183,8 +193,8 @@ class RayScene {
     const double s0 = side(0, 1);
     const double s1 = side(1, 2);
     const double s2 = side(2, 0);
-    if ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))
-      hit(glm::dot(n, face.corner[0] - origin) / nd, face.polygon);
+    return ((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0)) &&
+           looks_for(glm::dot(n, face.corner[0] - origin) / nd, face.polygon);
   }
 
   /// The node of the faces begin .. end - 1, and those below it: halves by their middles along the longest side.

@@ -9,11 +9,14 @@
 
 namespace kage::verif {
 
-/// The part `number` (1 to of) of `of` parts of a list: neighbours, which need the same models.
+/// The part `number` (1 to of) of `of` parts of a list: neighbours, which need the same models. Where there are more
+/// parts than elements, some parts have the same one: none is empty.
 struct Shard {
   unsigned number = 1, of = 1;
   /// Whether it has the element `index`, from 0 on, of a list of `count`.
-  [[nodiscard]] bool has(std::size_t index, std::size_t count) const { return index * of / count == number - 1; }
+  [[nodiscard]] bool has(std::size_t index, std::size_t count) const {
+    return count < of ? (number - 1) * count / of == index : index * of / count == number - 1;
+  }
 };
 
 /// $KAGE_SHARD, "I/N", for a run that has no time for all; without it, all. Throws Error if it is something else.

@@ -270,7 +270,7 @@ std::uint64_t bytes_of_blocks(const OIIO::ImageSpec& spec) {
   if (kind == "dwab") lines = 256;
   const std::uint64_t height = static_cast<std::uint64_t>(std::max(spec.height, 1));
   const std::uint64_t at_once =
-      std::min<std::uint64_t>((height + lines - 1) / lines, 2U * std::thread::hardware_concurrency());
+      std::min<std::uint64_t>((height + lines - 1) / lines, std::uint64_t{2} * std::thread::hardware_concurrency());
   constexpr std::uint64_t kForms = 4;
   return kForms * at_once * std::min(lines, height) * spec.scanline_bytes(true);
 }

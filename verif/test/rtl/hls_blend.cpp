@@ -16,7 +16,9 @@ TEST_CASE("hls_pixel_blend is the blender of kage_pixel_next.svh", "[hls_blend]"
   Vhls_blend8 model8;
   Vhls_blend12 model12;
   Vhls_blend16 model16;
-  REQUIRE(wrong_in_blend(model8, 8) == std::string());
-  REQUIRE(wrong_in_blend(model12, 12) == std::string());
-  REQUIRE(wrong_in_blend(model16, 16) == std::string());
+  for (const std::string& wrong :
+       {wrong_in_blend(model8, 8), wrong_in_blend(model12, 12), wrong_in_blend(model16, 16)}) {
+    INFO(wrong);
+    REQUIRE(wrong.empty());
+  }
 }

@@ -8,7 +8,7 @@ source=$1 work=$2
 rm -rf "$work" && mkdir -p "$work"
 cp -r "$source/rtl" "$source/verif/tb" "$work"
 cd "$work"
-# run PARAM=VALUE...: the bench's last line; its exit code is the simulation's
+# run PARAM=VALUE...: the testbench's last line; its exit code is the simulation's
 run() {
   local sets=() set
   for set in "$@"; do sets+=("-Pkage_axi_tb.$set"); done

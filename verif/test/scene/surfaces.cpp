@@ -30,7 +30,7 @@ class CulledRays {
       const glm::dvec3& p = frame_.vertices[corners.vertex[0]];
       const glm::dvec3 normal =
           glm::cross(frame_.vertices[corners.vertex[1]] - p, frame_.vertices[corners.vertex[2]] - p);
-      if (t >= least && t < found.first && shows(corners.sides, glm::dot(normal, direction) < 0)) found = {t, face};
+      if (t >= least && shows(corners.sides, glm::dot(normal, direction) < 0)) found = std::min(found, {t, face});
     });
     return found;
   }

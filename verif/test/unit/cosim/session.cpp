@@ -133,8 +133,8 @@ TEST_CASE("shards have all frames once") {
   for (o.shard.index = 1; o.shard.index <= o.shard.count; ++o.shard.index)
     for (const report::SceneRecord& s : go(o, host, cores).scenes)
       for (int i = 0; i < s.frames; ++i) seen.emplace(s.scene, s.first_frame + i * s.frame_step);
-  REQUIRE(seen.size() == 2 * kFrames);
-  REQUIRE(std::set(seen.begin(), seen.end()).size() == 2 * kFrames);
+  REQUIRE(seen.size() == std::size_t{2} * kFrames);
+  REQUIRE(std::set(seen.begin(), seen.end()).size() == std::size_t{2} * kFrames);
   o.shard = {.index = 14, .count = 14, .given = true};
   REQUIRE_THROWS_WITH(go(o, host, cores), "--shard 14/14: the scenes have only 12 frames");
 }

@@ -83,9 +83,9 @@ Values picture(int channels, int most) {
     for (int c = 0; c < channels; ++c) {
       const int alphas[] = {0, 1, most / 2, most};
       const bool alpha = c == channels - 1 && channels % 2 == 0;
-      values.push_back(static_cast<std::uint16_t>(alpha ? alphas[i % 4]
-                                                        : (i * 2654435761U + 977U * static_cast<unsigned>(c)) %
-                                                              static_cast<unsigned>(most + 1)));
+      const unsigned mixed = static_cast<unsigned>(i) * 2654435761U + 977U * static_cast<unsigned>(c);
+      const int value = alpha ? alphas[i % 4] : static_cast<int>(mixed % static_cast<unsigned>(most + 1));
+      values.push_back(static_cast<std::uint16_t>(value));
     }
   return values;
 }
@@ -273,7 +273,8 @@ TEST_CASE("files that differ in one value are different, in every format that Op
     for (int pixel = 0; pixel < 4; ++pixel)
       for (int c = 0; c < w.channels; ++c) {
         Values changed = values;
-        changed[static_cast<std::size_t>(pixel * w.channels + c)] ^= 1;
+        changed[static_cast<std::size_t>(pixel) * static_cast<std::size_t>(w.channels) + static_cast<std::size_t>(c)] ^=
+            1;
         CAPTURE(name, pixel, c);
         check_pair(a, write_values(folder.path / ("b-" + name + "." + w.extension), w, changed));
       }
@@ -435,7 +436,7 @@ TEST_CASE("a TIFF's lines are decoded, or it is refused") {
   refused(tiff(16, 4, 1, 1, 34933, sound), "is compressed in the way 34933, which is not read");
   refused(tiff(16, 4, 1, 1, 1, sound.substr(1)), "line 0 cannot be decoded: it is damaged, or cut off");
   constexpr unsigned kColours = 8 + 2 + 12 * 11 + 4 + 64;
-  refused(tiff(8, 4, 2, 3, 1, sound + std::string(6 * 256, '\3'), {{320, kColours}, {338, 2}}),
+  refused(tiff(8, 4, 2, 3, 1, sound + std::string(std::size_t{6} * 256, '\3'), {{320, kColours}, {338, 2}}),
           "has a palette with alpha, which is not read without loss");
   refused(tiff(16, 4, 1, 1, 1, sound, {{330, 8}}), "has pictures within its picture, which are not read");
   const fs::path a = file("a.tif", tiff(8, 4, 2, 1, 1, sound, {{338, 0}}));
@@ -529,7 +530,7 @@ TEST_CASE("what a file says of its values beside them is compared, or refused") 
   refused("a.tga", targa(2, 15, 1, std::string(8, '\1')), "has one bit of alpha");
 
   // WebP's word for alpha is a hint.
-  std::vector<std::uint8_t> rgba(4 * kWidth * kHeight, 128);
+  std::vector<std::uint8_t> rgba(std::size_t{4} * kWidth * kHeight, 128);
   std::string hint = bytes_of(write_webp(folder.path / "a.webp", rgba, 1));
   REQUIRE(hint.substr(12, 4) == "VP8L");
   hint[24] = static_cast<char>(hint[24] & ~0x10);

@@ -143,7 +143,7 @@ TEST_CASE("polygons that cross themselves are found, and no others") {
   CHECK_FALSE(crosses(flat({{0, 0}, {4, 0}, {4, 4}, {2, -1e-7}, {0, 4}})));
   // Round twice, to the same side at each corner; a regular polygon goes round once. Any plane will do.
   for (const glm::dvec3& x : {glm::dvec3{1, 0, 0}, {0, 0.6, 0.8}})
-    for (const std::size_t corners : {5, 6, 7, 101})
+    for (const std::size_t corners : {5U, 6U, 7U, 101U})
       for (const int times : {1, 2}) {
         std::vector<glm::dvec3> p;
         for (std::size_t i = 0; i < corners; ++i) {

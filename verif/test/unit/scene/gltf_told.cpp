@@ -57,7 +57,7 @@ TEST_CASE("what nests deep is told, and refused where it is deeper than any JSON
     return Scene::load(dir.write("deep.gltf", text));
   };
   CHECK(test::has_note(nested(100), "deep"));
-  for (const std::size_t levels : {200, 100000}) CHECK_THROWS_AS(nested(levels), Error);
+  for (const std::size_t levels : {200U, 100000U}) CHECK_THROWS_AS(nested(levels), Error);
 }
 
 TEST_CASE("unlit, emission over black, transmission, sides") {

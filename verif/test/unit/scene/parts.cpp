@@ -26,7 +26,7 @@ SceneObject box(const std::string& name, glm::vec3 low, glm::vec3 high) {
   o.name = name;
   for (const float z : {low.z, high.z})
     for (const auto& [x, y] : {std::pair(low.x, low.y), {high.x, low.y}, {high.x, high.y}, {low.x, high.y}})
-      o.positions.push_back({x, y, z});
+      o.positions.emplace_back(x, y, z);
   o.triangles = kBoxFaces;
   return o;
 }
@@ -65,7 +65,7 @@ Scene of_file(const TempDirectory& dir, const SceneParts& parts) {
     for (std::size_t i = 0; i < o.triangles.size(); ++i) {
       obj += "usemtl m" + std::to_string(o.materials[i]) + "\nf";
       for (const std::uint32_t v : o.triangles[i]) obj += " " + std::to_string(vertices + v);
-      obj += "\n";
+      obj += '\n';
     }
     vertices += o.positions.size();
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "stimulus/lit_scenes.hpp"
+#include "stimulus/scenes/lit_scenes.hpp"
 
 #include <array>
 #include <glm/geometric.hpp>
