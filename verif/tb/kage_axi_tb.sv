@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A testbench of kage_axi for any simulator and any parameters. It reads the registers, and sends a frame without a token
-// in its lines and one for another core, both with stalls. It holds every pixel, the counters and the interrupt against
-// docs/stream.md. It needs no other program, as it takes the frame's parameter hash from the core.
+// A testbench of kage_axi for any simulator and any parameters. It reads the registers, and sends a frame without a
+// token in its lines and one for another core, both with stalls. It holds every pixel, the counters and the interrupt
+// against docs/stream.md. It needs no other program, as it takes the frame's parameter hash from the core.
 //
 // Its last line is "kage_axi_tb: passed" or "kage_axi_tb: FAILED: ..."; then the simulation ends, by $finish or $fatal.
 `timescale 1ns / 1ps
