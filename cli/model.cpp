@@ -89,8 +89,8 @@ void add_model(Program& program, Action& action) {
           .type_name("SCENE");
   const std::size_t others = c.options().size();
   options_of_pictures(c, *o);
-  const std::vector<Option> all = c.options();
-  for (std::size_t i = others; i < all.size(); ++i) Option(all[i]).needs(plan);
+  std::vector<Option> all = c.options();
+  for (std::size_t i = others; i < all.size(); ++i) all[i].needs(plan);
   option_fault(c, o->fault);
   option_netlist(c, o->netlist);
   option_front_end(c, *o);

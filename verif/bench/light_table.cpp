@@ -14,6 +14,7 @@
 #include "geometry/view.hpp"
 #include "kage/light.hpp"
 #include "oracle/light_truth.hpp"
+#include "oracle/ray_truth.hpp"
 #include "shadow/shadow_caster.hpp"
 
 namespace {
@@ -39,11 +40,7 @@ struct Hit {
 };
 
 Hit hit(const SceneFrame& f, const Polygon& face, int x, int y) {
-  const Camera& c = f.camera;
-  const double unit = 2 * c.half_height / kHeight;
-  const glm::dvec3 across = c.right * ((x + 0.5 - kWidth / 2.0) * unit) + c.up * ((kHeight / 2.0 - y - 0.5) * unit);
-  const glm::dvec3 origin = c.perspective ? c.eye : c.eye + across;
-  const glm::dvec3 direction = c.perspective ? c.forward + across : c.forward;
+  const auto [origin, direction] = pixel_ray(f.camera, x, y, kWidth, kHeight);
   const Triangle& t = f.triangles[face.triangle];
   const glm::dvec3 a = f.vertices[t.vertex[0]];
   const glm::dvec3 u = f.vertices[t.vertex[1]] - a;

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "kage/geometry.hpp"
-#include "kage/light.hpp"
 #include "kage/pipeline.hpp"
 #include "oracle/judge.hpp"
 #include "oracle/light_reference.hpp"
@@ -19,24 +18,16 @@ using namespace kage::verif;
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 
-/// The points that the picture's shadows are cast from.
-LightReference<RayScene>::Points points_of(const SceneFrame& f, const Look& look) {
-  LightReference<RayScene>::Points points;
-  for (std::size_t l = 0; l < f.lights.size(); ++l)
-    points.push_back(light_points(f.lights[l], look.samples, look.seed + l));
-  return points;
-}
-
 void reference_errors() {
   fmt::print("{:17} {:13} {:>5} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6}\n", "scene", "configuration", "ties", "shadowed",
              "mean", "worst", "else", "worst", "dB");
   for (const LitScene& lit : lit_scenes()) {
     const Scene scene = Scene::from(lit.parts);
-    DrawOptions options{.width = kWidth, .height = kHeight};
+    const DrawOptions options{.width = kWidth, .height = kHeight};
     const NamedConfig chosen = choose_config(scene, options);
     const SceneFrame f = scene.frame(0, 1);
     const RayScene rays(f);
-    const LightReference reference(f, rays, points_of(f, options.look), kWidth, kHeight);
+    const LightReference reference(f, rays, sampled_points(f, options.look), kWidth, kHeight);
     const FrameGeometry g = make_geometry(f, chosen.config, kWidth, kHeight, {.look = options.look});
     const LightError e = compare_light(draw(g, chosen.config), kWidth, kHeight, reference);
     fmt::print("{:17} {:13} {:5} {:8} {:6.2f} {:6.1f} {:6.2f} {:6.1f} {:6.1f}\n", lit.name, chosen.name, e.ties,

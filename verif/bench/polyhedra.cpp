@@ -90,7 +90,7 @@ int main() {
       fmt::print("{} {}: not one polyhedron of so many faces but {}\n", what, faces, f.polygons.size());
       return false;
     }
-    const double plan_seconds = bench::least_seconds(20, [&] { (void)TreeLayout(g, config); });
+    const double layout_seconds = bench::least_seconds(20, [&] { (void)TreeLayout(g, config); });
     const TreeLayout layout(g, config);
     std::vector<std::vector<std::uint32_t>> lines;
     std::size_t words = 0;
@@ -104,9 +104,9 @@ int main() {
     });
     const double segments = static_cast<double>(words) / Layout(config).words[static_cast<std::size_t>(Kind::SEG)];
     fmt::print("{:>7} {:>6} {:>8} {:>9.0f} {:>14.1f} {:>8.1f} {:>12.1f} {:>11.1f} {:>11.1f} {:>13.1f} {:>13.0f}\n",
-               what, faces, g.polyhedra[0].polygon_count, segments, segments / kHeight, plan_seconds * 1e6,
+               what, faces, g.polyhedra[0].polygon_count, segments, segments / kHeight, layout_seconds * 1e6,
                seconds * 1e6, seconds * 1e9 / segments, static_cast<double>(words) / kHeight, segments / kHeight + 2,
-               0.05 / (plan_seconds + seconds));
+               0.05 / (layout_seconds + seconds));
     return true;
   };
   // Once something large has been freed, glibc no longer gives small things back to the system band by band.

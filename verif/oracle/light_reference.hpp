@@ -98,8 +98,7 @@ class LightReference {
   /// Points of each light.
   using Points = std::vector<std::vector<LightPoint>>;
 
-  /// `points`: of each of the frame's lights, those that shine. A light's own are reference_points(), or kage's
-  /// samples.
+  /// `points`: of each of the frame's lights, those that shine: reference_points(), or kage's samples.
   LightReference(const SceneFrame& f, const Rays& rays, Points points, int width, int height)
       : f_(&f), rays_(&rays), points_(std::move(points)), width_(width), height_(height) {}
 

@@ -4,7 +4,9 @@
 #include <array>
 #include <glm/geometric.hpp>
 
+#include "kage/light.hpp"
 #include "scene/functions.hpp"
+#include "stimulus/shapes.hpp"
 
 namespace kage::verif {
 namespace {
@@ -29,17 +31,9 @@ SceneObject plate(float half, int cells) {
 SceneObject block(const glm::vec3& middle, const glm::vec3& half) {
   SceneObject o;
   o.name = "block";
-  for (unsigned i = 0; i < 8; ++i)
-    o.positions.push_back(middle + half * glm::vec3(i & 1U ? 1 : -1, i & 2U ? 1 : -1, i & 4U ? 1 : -1));
-  for (const std::array<std::uint32_t, 4>& q : {std::array<std::uint32_t, 4>{0, 4, 6, 2},
-                                                {1, 3, 7, 5},
-                                                {0, 1, 5, 4},
-                                                {2, 6, 7, 3},
-                                                {0, 2, 3, 1},
-                                                {4, 5, 7, 6}}) {
-    o.triangles.push_back({q[0], q[1], q[2]});
-    o.triangles.push_back({q[0], q[2], q[3]});
-  }
+  const Solid box = box_solid();
+  for (const glm::dvec3& v : box.vertices) o.positions.push_back(middle + half * glm::vec3(v));
+  o.triangles = box.faces;
   return o;
 }
 
@@ -184,6 +178,13 @@ std::vector<LitScene> lit_scenes() {
   all.push_back(still_life("spot-inside", "a cone within one triangle", 1,
                            {spot({-0.5, 3, 2}, {0.6, 0, 1.9}, 20.0 * kWhite, 0.1, 0.2)}));
   return all;
+}
+
+std::vector<std::vector<LightPoint>> sampled_points(const SceneFrame& frame, const Look& look) {
+  std::vector<std::vector<LightPoint>> points;
+  for (std::size_t l = 0; l < frame.lights.size(); ++l)
+    points.push_back(light_points(frame.lights[l], look.samples, look.seed + l));
+  return points;
 }
 
 }  // namespace kage::verif

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kage/geometry.hpp"
 #include "kage/scene.hpp"
 
 namespace kage::verif {
@@ -25,5 +26,8 @@ std::vector<LitScene> lit_scenes();
 /// Two blocks on a table, and a window beside it whose middle is `height` above the table's top. Below 1 a part of the
 /// window is behind the table's face: its lower edge is at height - 1.
 LitScene table_and_window(double height);
+
+/// The points of each light that kage casts shadows from.
+std::vector<std::vector<LightPoint>> sampled_points(const SceneFrame& frame, const Look& look);
 
 }  // namespace kage::verif

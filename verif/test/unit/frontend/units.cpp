@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which polyhedron goes to which unit, against brute force: by cells of a small screen, and by the segments that a
-// frame's plan writes.
+// frame's layout writes.
 #include "frontend/units.hpp"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ std::vector<UnitNeed> random_needs(Random& random, int most) {
   std::vector<UnitNeed> needs(static_cast<std::size_t>(random.in(0, most)));
   const int longest = random.in(1, kSide);
   for (UnitNeed& n : needs) {
-    if (random.chance(0.1)) {  // as a plan leaves it
+    if (random.chance(0.1)) {  // as a layout leaves it
       n.first = n.left = kSide;
       continue;
     }
@@ -157,12 +157,12 @@ TEST_CASE("units: one that no unit can hold, and all behind it, go without, thou
   CHECK(assign_units({}, room(1)).empty());
 }
 
-TEST_CASE("units: a plan's needs are what its runs ask for, and its segments on a line never exceed the bound") {
+TEST_CASE("units: a layout's needs are what its runs ask for, and its segments on a line never exceed the bound") {
   constexpr int kWidth = 96;
   constexpr int kHeight = 72;
   Random random(test_seed(3));
   CAPTURE(test_seed(3));
-  int plans = 0;
+  int layouts = 0;
   int shared = 0;
   int exact = 0;
   for (int round = 0; round < 150; ++round) {
@@ -216,7 +216,7 @@ TEST_CASE("units: a plan's needs are what its runs ask for, and its segments on 
       CHECK(p.report.unit_of[i] == expected);
     }
     if (p.count(Kind::TREE) == 0) continue;
-    ++plans;
+    ++layouts;
     const auto lines = segments_of(p, c);
     for (int u = 0; u < c.units; ++u) {
       std::vector<UnitNeed> members;
@@ -235,8 +235,8 @@ TEST_CASE("units: a plan's needs are what its runs ask for, and its segments on 
       exact += bound - static_cast<int>(most) <= 1 ? 1 : 0;
     }
   }
-  CAPTURE(plans, shared, exact);
-  CHECK(plans > 100);
+  CAPTURE(layouts, shared, exact);
+  CHECK(layouts > 100);
   CHECK(shared > 50);
   CHECK(exact > 10);
 }
