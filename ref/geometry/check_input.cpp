@@ -62,7 +62,7 @@ void check_look(const Look& look) {
   if (look.sub_bits < kLeastSubBits || look.sub_bits > kMostSubBits)
     throw Error(
         fmt::format("{} bits of a subpixel: there must be {} .. {}", look.sub_bits, kLeastSubBits, kMostSubBits));
-  if (!(look.darkening >= 0 && look.darkening <= 1)) throw Error("the darkening is not 0 .. 1");
+  if (look.darkening && !(*look.darkening >= 0 && *look.darkening <= 1)) throw Error("the darkening is not 0 .. 1");
   if (!(look.extrusion >= 1) || !std::isfinite(look.extrusion)) throw Error("the extrusion is not at least 1");
 }
 

@@ -16,7 +16,7 @@ FramePoints::FramePoints(std::vector<EyePoint> seen, const ScreenFaces& faces) :
 }
 
 FaceDrawer::FaceDrawer(const SceneFrame& frame, std::vector<EyePoint> points, const Config& config, const View& view,
-                       Clipper& clipper, FaceShading& shading, FrameGeometry& out)
+                       Clipper& clipper, const FaceShading& shading, FrameGeometry& out)
     : frame_(&frame),
       config_(&config),
       clipper_(&clipper),
@@ -45,7 +45,9 @@ void FaceDrawer::draw(std::uint32_t index) {
   if (!whole) clipper_->clip(polygon_, nullptr, false);
   if (polygon_.empty()) return;
   ScreenPolygon base;
-  base.lit = !t.unlit && shading_->takes_shadow(shaded);
+  base.lit = shaded.lit;
+  // A translucent face has no class: TP knows none.
+  if (config_->translucency == 0 || t.alpha == 255) base.normal_class = shaded.normal_class;
   base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
   base.source = index;
   base.depth = depth_plane(corners, t, whole);

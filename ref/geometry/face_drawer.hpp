@@ -25,7 +25,7 @@ class FaceDrawer {
  public:
   /// `points`: the frame's vertices, by eye_points().
   FaceDrawer(const SceneFrame& frame, std::vector<EyePoint> points, const Config& config, const View& view,
-             Clipper& clipper, FaceShading& shading, FrameGeometry& out);
+             Clipper& clipper, const FaceShading& shading, FrameGeometry& out);
 
   /// Appends what is seen of the face to the polygons, and notes which they are.
   void draw(std::uint32_t index);
@@ -43,7 +43,7 @@ class FaceDrawer {
   const SceneFrame* frame_;
   const Config* config_;
   Clipper* clipper_;
-  FaceShading* shading_;
+  const FaceShading* shading_;
   FrameGeometry* out_;
   ScreenFaces faces_;
   FramePoints points_;

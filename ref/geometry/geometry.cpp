@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -41,9 +42,6 @@ FrameGeometry empty_geometry(const Task& task, int width, int height, const Samp
   out.background = task.config.channels == 1 ? background[1] : packed_color(background);
   out.sample_light = lights.light_of;
   out.sub_bits = task.look.sub_bits;
-  if (lights.casting() > 0)
-    out.shade =
-        static_cast<std::uint32_t>(to_fixed(task.look.darkening / lights.samples_of[0], task.config.shade_frac));
   out.polygons.reserve(task.frame.polygons.size());
   out.vertices.reserve(task.frame.corners.size());
   return out;
@@ -105,8 +103,8 @@ void make_volumes(const Task& task, const SampledLights& lights, double near, Vo
   if (task.look.leave_out)
     receivers.emplace(task.frame, boxes, near, out.width, out.height, task.config.translucency == 0);
   std::vector<bool> casts(task.frame.components.size(), true);
-  for (std::uint32_t i = 0; i < lights.samples.size(); ++i) {
-    const ShadowCaster& caster = lights.samples[i];
+  for (std::uint32_t i = 0; i < lights.samples().size(); ++i) {
+    const ShadowCaster& caster = lights.samples()[i];
     if (receivers) casts = receivers->reached(caster.light());
     volumes.make(i, caster,
                  [&](const WorldVolume& v, std::uint32_t component) { maker.add(v, caster, i, component, casts); });
@@ -141,29 +139,48 @@ FrameGeometry build(const Task& task, int width, int height, TranslucentOrder& o
   std::vector<EyePoint> points = eye_points(frame);
   const View view(frame.camera, width, height, config.z_bits, depth_range(frame, config, width, height, look, points),
                   look.sub_bits);
-  const SampledLights lights(frame, config, look, view);
-  const Lighting lighting(frame.lights, frame.camera.up);
-  LightTable table(config, look, frame.lights, lighting, lights.samples_of);
-  FaceShading shading(frame, config, lights, lighting, table.exists());
+  const SampledLights lights(frame, config, look, view.near_corners());
+  const Lighting lighting(frame.lights, lights, frame.camera.up, config.channels == 1);
+  const LightTable table(frame, config, look, lights, lighting);
+  const FaceShading shading(frame, config, lights, lighting, table);
   FrameGeometry out = empty_geometry(task, width, height, lights);
+  table.put(out);
   Clipper clipper(view.near(), view.volume_end(), look.sub_bits);
   FaceDrawer drawer(frame, std::move(points), config, view, clipper, shading, out);
 
   const std::vector<std::uint32_t> turned_away = draw_all(task, drawer, out);
   out.drawn = static_cast<std::uint32_t>(out.polygons.size());
-  // Translucent faces, drawn later, have no class: TP knows none.
-  if (table.exists()) shading.classify(table, out.polygons);
   if (config.dsf_bits > 0) {
     for (const std::uint32_t i : turned_away) drawer.draw(i);  // what is turned away may still be a cap
     VolumeMaker maker(frame, view, clipper, drawer.points().eye, drawer.drawn(), look.far_ends, out);
     make_volumes(task, lights, view.near(), maker, shadows, out);
   }
   if (config.translucency > 0) draw_translucent(task, view, drawer, order, out);
-  table.finish(out);
   return out;
 }
 
 }  // namespace
+
+LightDemand light_demand(const SceneFrame& frame, const Config& config, const Look& look) {
+  check_finite(frame);
+  check_look(look);
+  const SampledLights lights(frame, config, look, {});
+  const Lighting lighting(frame.lights, lights, frame.camera.up, false);
+  const LightTable table(frame, config, look, lights, lighting);
+  const FaceShading shading(frame, config, lights, lighting, table);
+  LightDemand demand{table.error(), 0};
+  if (std::all_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return l.directional; }))
+    return demand;
+  std::vector<ClipPoint> corners;
+  for (std::uint32_t i = 0; i < frame.polygons.size(); ++i) {
+    corners.resize(frame.polygons[i].count);
+    const glm::dvec3 mean = shading.shade(i, corners).mean;
+    for (const ClipPoint& corner : corners)
+      for (int c = 0; c < 3; ++c)
+        demand.color_spread = std::max(demand.color_spread, std::abs(corner.color[c] - mean[c]));
+  }
+  return demand;
+}
 
 FrameGeometry make_geometry(const SceneFrame& frame, const Config& config, int width, int height,
                             const GeometryOptions& options) {

@@ -133,34 +133,4 @@ glm::dvec3 received(const Light& light, const glm::dvec3& point, const glm::dvec
   return light.color * (attenuation(light, point) * std::max(cosine, 0.0));
 }
 
-NormalClasses::NormalClasses(int count) {
-  for (int i = 0; i < count; ++i) {
-    const double z = 1 - (2 * i + 1.0) / count;
-    const double radius = std::sqrt(1 - z * z);
-    const Direction d(kGoldenRatio * static_cast<std::uint64_t>(i));
-    normals_.emplace_back(radius * d.cosine, radius * d.sine, z);
-  }
-}
-
-int NormalClasses::nearest(const glm::dvec3& unit) const {
-  // From the one next in z outwards, until z alone is further off than the best.
-  const auto n = static_cast<std::ptrdiff_t>(normals_.size());
-  const auto start =
-      std::clamp(static_cast<std::ptrdiff_t>((1 - unit.z) / 2 * static_cast<double>(n)), std::ptrdiff_t{0}, n - 1);
-  double best = INFINITY;
-  std::ptrdiff_t number = start;
-  for (const std::ptrdiff_t step : {-1, 1})
-    for (std::ptrdiff_t i = step < 0 ? start : start + 1; i >= 0 && i < n; i += step) {
-      const glm::dvec3& normal = normals_[static_cast<std::size_t>(i)];
-      const double off = normal.z - unit.z;
-      if (off * off > best) break;
-      const double distance = squared(normal - unit);
-      if (distance < best || (distance == best && i < number)) {
-        best = distance;
-        number = i;
-      }
-    }
-  return static_cast<int>(number) + 1;
-}
-
 }  // namespace kage

@@ -2,89 +2,251 @@
 #include "geometry/light_table.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
 
 #include "contract/derived.hpp"
+#include "geometry/kept_light.hpp"
 #include "geometry/view.hpp"
 
 namespace kage {
+namespace {
 
-LightTable::LightTable(const Config& config, const Look& look, std::span<const Light> lights, const Lighting& lighting,
-                       std::span<const int> samples)
-    : config_(&config), lighting_(&lighting), samples_(samples) {
-  if (!derived::has_table(config)) return;
-  normals_.emplace(look.classes);
-  positional_ = std::any_of(lights.begin(), lights.end(), [](const Light& l) { return !l.directional; });
+constexpr std::size_t kChannels = 3;
+constexpr double kWhite = 255;
+
+// A face's middle stands for so much of its light; its corners share the rest. So the mean of what goes with the square
+// of the place is exact on a triangle.
+constexpr double kMiddleWeight = 0.75;
+
+// Where several lights are kept out together a surface loses more than the sum of what it loses to each alone. So much
+// of the difference goes to the lights, each by its part of the light; 0 is right for each alone, 1 for all together.
+constexpr double kTogether = 0.25;
+
+// Weight of a share that, as far as boxes tell, no pixel needs.
+constexpr double kNeverKept = 0x1p-10;
+
+// No entry takes so much that what a face shadows itself leaves less than this part.
+constexpr double kLeastLeft = 1.0 / 64;
+
+}  // namespace
+
+FaceSide::FaceSide(const SceneFrame& frame, const SampledLights& lights, std::uint32_t of_polygon, int of_eye)
+    : polygon(of_polygon), eye_side(of_eye) {
+  const FacePlane plane(frame, frame.polygons[polygon]);
+  sides.reserve(lights.points.size());
+  for (const ShadowCaster& c : lights.points) sides.push_back(static_cast<std::int8_t>(c.facing(plane)));
 }
 
-std::uint32_t LightTable::classify(const glm::dvec3& normal, const glm::dvec3& place, double area,
-                                   const std::bitset<kMaxLights>& lit) {
-  const int nearest = normals_->nearest(normal);
-  const auto [at, fresh] =
-      numbers_.emplace(Key{nearest, lit.to_ullong()}, static_cast<std::uint32_t>(classes_.size()) + 1);
-  if (fresh) classes_.push_back({nearest, lit, {}, 0});
-  if (positional_) {
-    Class& c = classes_[at->second - 1];
-    const auto parts = lighting_->shares(place, normal, lit, config_->channels == 1);
-    const double weight = std::max(area, 1e-100);  // a face without area may be a class's only one
-    c.parts.resize(samples_.size(), glm::dvec3(0));
-    for (std::size_t l = 0; l < samples_.size(); ++l) c.parts[l] += parts[l] * weight;
-    c.weight += weight;
+bool FaceSide::takes_shadow(const SampledLights& lights) const {
+  return std::any_of(sides.begin(), sides.begin() + static_cast<std::ptrdiff_t>(lights.samples().size()),
+                     [this](std::int8_t s) { return s * eye_side > 0; });
+}
+
+int FaceSide::count(const SampledLights& lights, std::size_t l, int side) const {
+  return static_cast<int>(
+      std::count(sides.begin() + lights.first[l], sides.begin() + lights.first[l + 1], side * eye_side));
+}
+
+LightTable::LightTable(const SceneFrame& frame, const Config& config, const Look& look, const SampledLights& lights,
+                       const Lighting& lighting)
+    : frame_(&frame),
+      config_(&config),
+      lights_(&lights),
+      lighting_(&lighting),
+      self_shadow_(!look.fit || config.fsf > 0),
+      numbers_(lights.casting * kChannels),
+      class_(frame.polygons.size()) {
+  if (lights.casting == 0) return;
+  WeightedVectors all;
+  all.dimensions = numbers_;
+  std::vector<std::uint32_t*> whose;
+  double area = 0;
+  const KeptLight kept(frame);
+  for (const Component& part : frame.components)
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
+      const Triangle& t = frame.triangles[frame.polygons[i].triangle];
+      if (t.unlit || (t.alpha < 255 && config.translucency > 0)) continue;
+      FaceSide side(frame, lights, i, 1);
+      for (const int eye_side : {1, -1}) {
+        side.eye_side = eye_side;
+        if ((part.closed && eye_side < 0) || !side.takes_shadow(lights)) continue;
+        Loss l = loss(side);
+        for (std::size_t k = 0; k < lights.casting; ++k) {
+          const bool needed = side.count(lights, k, -1) > 0 || kept.may_be(i, part, eye_side, frame.lights[k]);
+          if (needed) area += l.area * kChannels;
+          for (std::size_t c = 0; c < kChannels && !needed; ++c) l.weights[k * kChannels + c] *= kNeverKept;
+        }
+        all.values.insert(all.values.end(), l.shares.begin(), l.shares.end());
+        all.weights.insert(all.weights.end(), l.weights.begin(), l.weights.end());
+        whose.push_back(&class_[i][eye_side > 0 ? 0 : 1]);
+      }
+    }
+  if (!derived::has_table(config)) {
+    make_one(all, look);
+    measure(all, std::vector<std::uint32_t>(whose.size(), 0), area);
+    return;
   }
-  return at->second;
+  const auto room = static_cast<std::size_t>(std::min(derived::most_class(config), look.classes));
+  const Clusters clusters = clusters_of(all, room);
+  middles_ = clusters.middles;
+  round_middles();
+  for (std::size_t i = 0; i < whose.size(); ++i) *whose[i] = clusters.of[i] + 1;
+  measure(all, clusters.of, area);
 }
 
-// Puts the classes together that have the same of `count` normals, and the same lights if `by_light`. `number` follows.
-void LightTable::coarsen(int count, bool by_light, std::vector<std::uint32_t>& number) {
-  const NormalClasses coarse(count);
-  std::vector<Class> merged;
-  std::map<Key, std::uint32_t> numbers;
-  std::vector<std::uint32_t> becomes(classes_.size() + 1, 0);
-  for (std::size_t i = 0; i < classes_.size(); ++i) {
-    const Class& c = classes_[i];
-    const int nearest = coarse.nearest(normals_->normal(c.normal));
-    const Key key{nearest, by_light ? c.lit.to_ullong() : 0};
-    const auto [at, fresh] = numbers.emplace(key, static_cast<std::uint32_t>(merged.size()) + 1);
-    if (fresh) merged.push_back({nearest, {}, std::vector<glm::dvec3>(c.parts.size(), glm::dvec3(0)), 0});
-    Class& m = merged[at->second - 1];
-    m.lit |= c.lit;
-    for (std::size_t l = 0; l < c.parts.size(); ++l) m.parts[l] += c.parts[l];
-    m.weight += c.weight;
-    becomes[i + 1] = at->second;
+void LightTable::measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area) {
+  double squares = 0;
+  for (std::size_t i = 0; i < of.size(); ++i)
+    for (std::size_t d = 0; d < numbers_; ++d) {
+      const double off = all.value(i)[d] - middles_[of[i] * numbers_ + d];
+      squares += all.weight(i)[d] * (off * off);
+    }
+  error_ = area > 0 ? std::sqrt(squares / area) : 0;
+}
+
+// One share for all faces, channels and lights: that of least error.
+void LightTable::make_one(const WeightedVectors& all, const Look& look) {
+  double sum = 0;
+  double weight = 0;
+  for (std::size_t i = 0; i < all.values.size(); ++i) {
+    sum += all.values[i] * all.weights[i];
+    weight += all.weights[i];
   }
-  for (std::uint32_t& n : number) n = becomes[n];
-  classes_ = std::move(merged);
-  normals_ = coarse;
+  middles_.assign(numbers_, weight > 0 ? sum / weight : 0);
+  if (look.darkening) middles_.assign(numbers_, *look.darkening / lights_->points_of(0));
+  round_middles();
 }
 
-std::vector<glm::dvec3> LightTable::shares(const Class& c) const {
-  if (!positional_) return lighting_->shares({}, normals_->normal(c.normal), c.lit, config_->channels == 1);
-  std::vector<glm::dvec3> parts;
-  for (const glm::dvec3& part : c.parts) parts.push_back(part / c.weight);
-  return parts;
+// As RESOLVE has them: what a face shadows itself is made up for by the very number.
+void LightTable::round_middles() {
+  for (double& m : middles_)
+    m = std::ldexp(static_cast<double>(to_fixed(std::min(m, 1.0), config_->shade_frac)), -config_->shade_frac);
 }
 
-void LightTable::finish(FrameGeometry& out) {
-  if (!normals_) return;
-  const auto most = static_cast<std::size_t>(derived::most_class(*config_));
-  std::vector<std::uint32_t> number(classes_.size() + 1);
-  for (std::size_t i = 0; i < number.size(); ++i) number[i] = static_cast<std::uint32_t>(i);
-  for (int count = normals_->count(); classes_.size() > most;) {
-    // With one normal left, what is left to differ is the lights.
-    coarsen(std::max(count / 2, 1), count > 1, number);
-    count = normals_->count();
+bool LightTable::shadows_itself(const FaceSide& side) const {
+  return self_shadow_ && frame_->triangles[frame_->polygons[side.polygon].triangle].alpha == 255;
+}
+
+LightTable::Loss LightTable::loss(const FaceSide& side) const {
+  const Polygon& face = frame_->polygons[side.polygon];
+  const auto outline = frame_->outline(face);
+  const Triangle& t = frame_->triangles[face.triangle];
+  const auto count = static_cast<double>(outline.size());
+  const glm::dvec3& apex = frame_->vertices[outline[0]];
+  glm::dvec3 twice_area{0, 0, 0};
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i)
+    twice_area += glm::cross(frame_->vertices[outline[i]] - apex, frame_->vertices[outline[i + 1]] - apex);
+  const double area = glm::length(twice_area);
+
+  std::vector<Place> corners;
+  Place middle{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  bool alike = true;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const std::uint32_t look = t.shading[outline.size() == 3 ? i : 0];
+    alike = alike && look == t.shading[0];
+    const ShadingVertex& v = frame_->shading[look];
+    corners.push_back({frame_->vertices[outline[i]], v.normal * static_cast<double>(side.eye_side), v.color});
+    middle.point += corners.back().point / count;
+    middle.normal += corners.back().normal;
+    middle.base += corners.back().base / count;
   }
-  for (ScreenPolygon& p : out.polygons) p.normal_class = number[p.normal_class];
+  const double length = glm::length(middle.normal);
+  if (length > 0) middle.normal /= length;
 
-  for (const Class& c : classes_) {
-    const auto parts = shares(c);
-    for (std::size_t l = 0; l < static_cast<std::size_t>(config_->lights); ++l) {
-      auto& entry = out.shares.emplace_back();
-      if (l >= samples_.size()) continue;
-      for (int k = 0; k < 3; ++k)
-        entry[static_cast<std::size_t>(k)] =
-            static_cast<std::uint32_t>(to_fixed(parts[l][k] / samples_[l], config_->shade_frac));
+  Loss out{std::vector<double>(numbers_, 0), std::vector<double>(numbers_, 0), area};
+  if (alike && !lighting_->depends_on_place(side.sides, side.eye_side)) {
+    add_loss(side, middle, area, out);
+  } else {
+    add_loss(side, middle, area * kMiddleWeight, out);
+    for (const Place& corner : corners) add_loss(side, corner, area * (1 - kMiddleWeight) / count, out);
+  }
+  for (std::size_t i = 0; i < numbers_; ++i)
+    if (out.weights[i] > 0) out.shares[i] /= out.weights[i];
+  return out;
+}
+
+// At one place of a side, adds to `out` what its shadows take, times the weight of it.
+void LightTable::add_loss(const FaceSide& side, const Place& at, double weight, Loss& out) const {
+  std::array<glm::dvec3, kMaxLights> arrive;
+  lighting_->arriving(at.point, at.normal, side.sides, side.eye_side, std::span(arrive).first(lighting_->lights()));
+  const auto sum = [&](std::size_t first, std::size_t end) {
+    return std::accumulate(arrive.begin() + static_cast<std::ptrdiff_t>(first),
+                           arrive.begin() + static_cast<std::ptrdiff_t>(end), glm::dvec3(0));
+  };
+  const std::size_t casting = lights_->casting;
+  const glm::dvec3 kept = sum(0, casting);
+  const glm::dvec3 others = sum(casting, lighting_->lights());
+  const auto displayed = [&](const glm::dvec3& light) { return lighting_->displayed(at.normal, at.base, light); };
+  const glm::dvec3 lit = displayed(others + kept);
+
+  std::array<glm::dvec3, kMaxLights> taken;  // by each light's full shadow alone
+  std::array<int, kMaxLights> before{};
+  std::array<int, kMaxLights> behind{};
+  for (std::size_t l = 0; l < casting; ++l) {
+    before[l] = side.count(*lights_, l, 1);
+    if (shadows_itself(side)) behind[l] = side.count(*lights_, l, -1);
+    taken[l] = before[l] > 0 ? lit - displayed(others + kept - arrive[l]) : glm::dvec3(0);
+  }
+  const glm::dvec3 alone =
+      std::accumulate(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(casting), glm::dvec3(0));
+  const glm::dvec3 together = lit - displayed(others) - alone;
+
+  for (int c = 0; c < static_cast<int>(kChannels); ++c) {
+    if (!(lit[c] > 0)) continue;
+    double own_shadow = 0;
+    std::array<double, kMaxLights> share{};  // by a sample
+    for (std::size_t l = 0; l < casting; ++l) {
+      if (before[l] == 0) continue;
+      const double of_all = kept[c] > 0 ? arrive[l][c] / kept[c] : 0;
+      share[l] = std::max(taken[l][c] + kTogether * together[c] * of_all, 0.0) / (lit[c] * before[l]);
+      own_shadow += share[l] * behind[l];
+    }
+    // With its own shadow made up for, the colour must still be one: else its shadows are fainter.
+    const double most = kWhite / lit[c] - 1;
+    const double scale = own_shadow > most ? most / own_shadow : 1;
+    const double color = lit[c] * (1 + scale * own_shadow);
+    for (std::size_t l = 0; l < casting; ++l) {
+      const double by_all = color * lights_->points_of(l);
+      const double importance = weight * (by_all * by_all);
+      const std::size_t to = l * kChannels + static_cast<std::size_t>(c);
+      out.shares[to] += importance * scale * share[l] / (1 + scale * own_shadow);
+      out.weights[to] += importance;
     }
   }
+}
+
+std::uint32_t LightTable::number(const FaceSide& side) const {
+  const std::uint32_t known = class_[side.polygon][side.eye_side > 0 ? 0 : 1];
+  if (known > 0 || !derived::has_table(*config_)) return std::max(known, 1U);
+  const Loss l = loss(side);
+  return nearest_middle(middles_, numbers_, l.shares.data(), l.weights.data()) + 1;
+}
+
+glm::dvec3 LightTable::before_own_shadow(const FaceSide& side, std::uint32_t number) const {
+  glm::dvec3 left{1, 1, 1};
+  if (!shadows_itself(side)) return left;
+  for (std::size_t l = 0; l < lights_->casting; ++l) {
+    const int behind = side.count(*lights_, l, -1);
+    for (std::size_t c = 0; c < kChannels; ++c)
+      left[static_cast<int>(c)] -= behind * middles_[(number - 1) * numbers_ + l * kChannels + c];
+  }
+  return 1.0 / glm::max(left, glm::dvec3(kLeastLeft));
+}
+
+void LightTable::put(FrameGeometry& out) const {
+  const auto fixed = [this](double share) { return static_cast<std::uint32_t>(to_fixed(share, config_->shade_frac)); };
+  if (!derived::has_table(*config_)) {
+    if (!middles_.empty()) out.shade = fixed(middles_[0]);
+    return;
+  }
+  for (std::size_t first = 0; first < middles_.size(); first += numbers_)
+    for (std::size_t l = 0; l < static_cast<std::size_t>(config_->lights); ++l) {
+      auto& entry = out.shares.emplace_back();
+      if (l >= lights_->casting) continue;
+      for (std::size_t c = 0; c < kChannels; ++c) entry[c] = fixed(middles_[first + l * kChannels + c]);
+    }
 }
 
 }  // namespace kage

@@ -1,62 +1,91 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The table by which RESOLVE takes each light's share from a colour that is the sum of all. [Matsumoto, section 6.]
+// Shares of a colour that shadows take: the table by which RESOLVE takes each light's from a colour that is the sum of
+// all, or one share for the whole frame. [Matsumoto, section 6.]
 #pragma once
 
 #include <array>
-#include <bitset>
 #include <cstdint>
-#include <map>
-#include <optional>
+#include <glm/vec3.hpp>
 #include <span>
-#include <utility>
 #include <vector>
 
+#include "geometry/clusters.hpp"
+#include "geometry/sampled_lights.hpp"
 #include "geometry/shade.hpp"
 #include "kage/geometry.hpp"
-#include "kage/light.hpp"
 
 namespace kage {
 
-/// Puts faces in classes and says what each class loses in shadow. A class is a quantised normal and the lights that
-/// reach the face; only classes that some face has get a number. Light from directional lights depends on the surface's
-/// normal alone, so an entry is that of the class's normal. Light from other lights depends on the place too: then an
-/// entry is the mean, by area, over the faces that have the class.
+/// A side of a face, and on which side of it the points of lights are.
+struct FaceSide {
+  FaceSide(const SceneFrame& frame, const SampledLights& lights, std::uint32_t of_polygon, int of_eye);
+
+  /// Some point of a light that casts is before it: shadows take from its colour.
+  [[nodiscard]] bool takes_shadow(const SampledLights& lights) const;
+
+  /// The points of light `l` before it (1) or behind it (-1).
+  [[nodiscard]] int count(const SampledLights& lights, std::size_t l, int side) const;
+
+  std::uint32_t polygon;           ///< of SceneFrame::polygons
+  int eye_side;                    ///< 1: seen from outside, -1: from inside
+  std::vector<std::int8_t> sides;  ///< of each point: 1 outside, -1 inside, 0 edge-on
+};
+
+/// The shares of a frame. Faces that lose about the same are in one class and have one entry. Classes follow from all
+/// faces of the scene, weighted by area and colour, not from those in view: they stay while scene and lights rest,
+/// wherever the camera goes. Refers to what it is made of.
 class LightTable {
  public:
-  /// No table if the configuration has none. `samples`: of each light that casts shadows; the others have share 0.
-  LightTable(const Config& config, const Look& look, std::span<const Light> lights, const Lighting& lighting,
-             std::span<const int> samples);
+  LightTable(const SceneFrame& frame, const Config& config, const Look& look, const SampledLights& lights,
+             const Lighting& lighting);
 
-  [[nodiscard]] bool exists() const { return normals_.has_value(); }
+  /// The class of a side that takes shadow, from 1; without a table all are in one.
+  [[nodiscard]] std::uint32_t number(const FaceSide& side) const;
 
-  /// A number for the class of a face that some casting light reaches, until finish() gives it its own.
-  std::uint32_t classify(const glm::dvec3& normal, const glm::dvec3& place, double area,
-                         const std::bitset<kMaxLights>& lit);
+  /// A factor for each channel of a side's colour. The shadow that the side throws on itself counts the points behind
+  /// it; what that leaves of the product is the colour.
+  [[nodiscard]] glm::dvec3 before_own_shadow(const FaceSide& side, std::uint32_t number) const;
 
-  /// Once all faces are classified: numbers of polygons become those of the table, and FrameGeometry::shares is made.
-  /// Where there are more classes than the table holds, coarser normals are taken, by halves.
-  void finish(FrameGeometry& out);
+  /// How far colours in the full shadow of a light are off because a class has one share, in steps of 255. It is the
+  /// root mean square over lights, channels, and the area of the sides that casters may keep light from.
+  [[nodiscard]] double error() const { return error_; }
+
+  /// FrameGeometry::shade or shares.
+  void put(FrameGeometry& out) const;
 
  private:
-  struct Class {
-    int normal = 0;  // of normals_
-    std::bitset<kMaxLights> lit;
-    std::vector<glm::dvec3> parts;  // of each casting light, weighted, if some light is not directional
-    double weight = 0;
+  /// The share of a sample from a side, for each light and channel, and how much an error there would count: by the
+  /// area, and the square of the colour that all samples would take.
+  struct Loss {
+    std::vector<double> shares;
+    std::vector<double> weights;
+    double area = 0;
   };
-  using Key = std::pair<int, std::uint64_t>;  // normal and lights
 
-  void coarsen(int count, bool by_light, std::vector<std::uint32_t>& number);
-  [[nodiscard]] std::vector<glm::dvec3> shares(const Class& c) const;
+  /// A place of a side: where light is worked out.
+  struct Place {
+    glm::dvec3 point;
+    glm::dvec3 normal;  // turned to the eye
+    glm::dvec3 base;
+  };
 
+  [[nodiscard]] Loss loss(const FaceSide& side) const;
+  void add_loss(const FaceSide& side, const Place& at, double weight, Loss& out) const;
+  [[nodiscard]] bool shadows_itself(const FaceSide& side) const;
+  void make_one(const WeightedVectors& all, const Look& look);
+  void measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area);
+  void round_middles();
+
+  const SceneFrame* frame_;
   const Config* config_;
+  const SampledLights* lights_;
   const Lighting* lighting_;
-  std::span<const int> samples_;
-  bool positional_ = false;
-  std::optional<NormalClasses> normals_;
-  std::vector<Class> classes_;
-  std::map<Key, std::uint32_t> numbers_;  // of classes_, from 1
+  bool self_shadow_;             // every sample of a face that casts shadows it from behind
+  std::size_t numbers_;          // of a class: casting lights times channels
+  std::vector<double> middles_;  // of each class, a light's channels one after the other
+  double error_ = 0;
+  std::vector<std::array<std::uint32_t, 2>> class_;  // of each polygon's outside and inside, or 0: not known
 };
 
 }  // namespace kage

@@ -1,27 +1,34 @@
 // SPDX-License-Identifier: Apache-2.0
-// The lights of a frame as points that cast shadows.
+// The lights of a frame as points that shine and cast shadows.
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
-#include "geometry/view.hpp"
 #include "kage/geometry.hpp"
 #include "shadow/shadow_caster.hpp"
 
 namespace kage {
 
-/// All lights shine, the first ones cast shadows: as many as the configuration tells apart, none without shadows.
+/// All lights shine, the first ones cast shadows: as many as the configuration tells apart, none without shadows. A
+/// light that casts is its samples, another its middle.
 struct SampledLights {
   /// Throws Error where a light has more samples than COUNT_BITS holds.
-  SampledLights(const SceneFrame& frame, const Config& config, const Look& look, const View& view);
+  /// `near_corners`: View::near_corners(), past which shadows reach.
+  SampledLights(const SceneFrame& frame, const Config& config, const Look& look,
+                std::span<const glm::dvec3> near_corners);
 
-  /// How many lights cast.
-  [[nodiscard]] std::size_t casting() const { return samples_of.size(); }
+  /// How many points light `l` is.
+  [[nodiscard]] int points_of(std::size_t l) const { return static_cast<int>(first[l + 1] - first[l]); }
 
-  std::vector<ShadowCaster> middles;   ///< of all lights
-  std::vector<ShadowCaster> samples;   ///< of those that cast, light by light
-  std::vector<int> samples_of;         ///< of each light that casts, how many
+  /// The points that cast, light by light.
+  [[nodiscard]] std::span<const ShadowCaster> samples() const { return std::span(points).first(light_of.size()); }
+
+  std::vector<ShadowCaster> points;    ///< of all lights, light by light
+  std::vector<std::uint32_t> first;    ///< of each light its first of them, and their number
+  std::size_t casting = 0;             ///< how many lights cast
   std::vector<std::uint8_t> light_of;  ///< of each sample, its light
 };
 

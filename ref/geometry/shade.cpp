@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "geometry/sampled_lights.hpp"
 #include "kage/light.hpp"
 
 namespace kage {
@@ -34,36 +35,46 @@ double srgb_encode(double linear) {
   return 0.653986 * s1 + 0.688709 * s2 - 0.318471 * s3 - 0.020188 * x - 0.004036;
 }
 
-double Lighting::ambient(const glm::dvec3& normal) const {
-  return kAmbient + kSky * 0.5 * (1.0 + glm::dot(normal, up_));
+Lighting::Lighting(std::span<const Light> lights, const glm::dvec3& up, bool grey) : up_(up), grey_(grey) {
+  for (const Light& l : lights) {
+    first_.push_back(static_cast<std::uint32_t>(points_.size()));
+    points_.push_back(l);
+    points_.back().color *= 1.0 - kAmbient;
+  }
+  first_.push_back(static_cast<std::uint32_t>(points_.size()));
 }
 
-glm::dvec3 Lighting::displayed(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base,
-                               const std::bitset<kMaxLights>& lit, bool grey) const {
-  glm::dvec3 light = glm::dvec3(ambient(normal));
-  for (std::size_t l = 0; l < lights_.size(); ++l)
-    if (lit[l]) light += received(lights_[l], point, normal) * (1.0 - kAmbient);
-  return encoded(base * light, grey);
+Lighting::Lighting(std::span<const Light> lights, const SampledLights& sampled, const glm::dvec3& up, bool grey)
+    : first_(sampled.first), up_(up), grey_(grey) {
+  for (std::size_t l = 0; l < lights.size(); ++l)
+    for (std::uint32_t i = first_[l]; i < first_[l + 1]; ++i) {
+      Light point = lights[l];
+      static_cast<LightPoint&>(point) = sampled.points[i].light();
+      point.color *= (1.0 - kAmbient) / sampled.points_of(l);
+      points_.push_back(point);
+    }
+}
+
+void Lighting::arriving(const glm::dvec3& point, const glm::dvec3& normal, std::span<const std::int8_t> sides,
+                        int eye_side, std::span<glm::dvec3> out) const {
+  for (std::size_t l = 0; l < out.size(); ++l) {
+    out[l] = glm::dvec3(0);
+    for (std::uint32_t i = first_[l]; i < first_[l + 1]; ++i)
+      if (sides[i] * eye_side > 0) out[l] += received(points_[i], point, normal);
+  }
+}
+
+glm::dvec3 Lighting::displayed(const glm::dvec3& normal, const glm::dvec3& base, const glm::dvec3& light) const {
+  const double ambient = kAmbient + kSky * 0.5 * (1.0 + glm::dot(normal, up_));
+  return encoded(base * (light + ambient), grey_);
 }
 
 glm::dvec3 Lighting::displayed_unlit(const glm::dvec3& base, bool grey) { return encoded(base, grey); }
 
-std::vector<glm::dvec3> Lighting::shares(const glm::dvec3& point, const glm::dvec3& normal,
-                                         const std::bitset<kMaxLights>& lit, bool grey) const {
-  std::vector<glm::dvec3> parts(lights_.size(), glm::dvec3(0));
-  glm::dvec3 sum{0, 0, 0};
-  for (std::size_t l = 0; l < lights_.size(); ++l) {
-    if (!lit[l]) continue;
-    parts[l] = received(lights_[l], point, normal) * (1.0 - kAmbient);
-    if (grey) parts[l] = glm::dvec3(luminance(parts[l]));
-    sum += parts[l];
-  }
-  const double dark = ambient(normal);
-  for (int c = 0; c < 3; ++c) {
-    const double loss = 1 - srgb_encode(dark) / srgb_encode(dark + sum[c]);
-    for (glm::dvec3& part : parts) part[c] = sum[c] > 0 ? loss * (part[c] / sum[c]) : 0;
-  }
-  return parts;
+bool Lighting::depends_on_place(std::span<const std::int8_t> sides, int eye_side) const {
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    if (!points_[i].directional && sides[i] * eye_side > 0) return true;
+  return false;
 }
 
 }  // namespace kage

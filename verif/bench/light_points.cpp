@@ -11,6 +11,7 @@
 
 #include "image/flip_metric.hpp"
 #include "number/mixed.hpp"
+#include "oracle/directions.hpp"
 #include "oracle/light_truth.hpp"
 #include "oracle/penumbra_truth.hpp"
 #include "stimulus/random.hpp"
@@ -67,13 +68,6 @@ Points hammersley(int n) {
   return points;
 }
 
-Points ball_surface(int n) {
-  const NormalClasses surface(n);
-  Points points;
-  for (int i = 1; i <= n; ++i) points.push_back(surface.normal(i));
-  return points;
-}
-
 Points in_ball(int n, double turn, double half_turn, double start) {
   Points points;
   for (int i = 0; i < n; ++i) {
@@ -98,15 +92,11 @@ Points facing_disc(int n, double aside) {
 Points descended(LightShape shape, Points points) {
   const bool square = shape == LightShape::rectangle;
   std::vector<glm::dvec3> directions;
-  const NormalClasses round(240);
   for (int i = 0; i < 120; ++i) {
     const double angle = M_PI * (i + 0.5) / 120;
     directions.emplace_back(std::cos(angle), std::sin(angle), 0);
   }
-  if (shape == LightShape::sphere) {
-    directions.clear();
-    for (int i = 1; i <= round.count(); ++i) directions.push_back(round.normal(i));
-  }
+  if (shape == LightShape::sphere) directions = even_directions(240);
   const auto n = static_cast<double>(points.size());
   std::vector<std::size_t> order(points.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -167,7 +157,7 @@ void edges() {
         other("Hammersley", hammersley(n));
       }
       if (shape == LightShape::sphere) {
-        other("surface", ball_surface(n));
+        other("surface", even_directions(n));
         other("R2", in_ball(n, 1 / 1.32471795724474602596, 2 / 1.75487766624669276, 0.25));
         other("facing disc 30 degrees aside", facing_disc(n, M_PI / 6));
       }
@@ -246,7 +236,13 @@ SceneFrame penumbra_with(LightShape shape) {
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 
-Image picture_of(const SceneFrame& f, int samples, std::uint64_t seed) {
+/// A picture, and the colour that a sample takes of white.
+struct Sampled {
+  Image image;
+  double step;
+};
+
+Sampled picture_of(const SceneFrame& f, int samples, std::uint64_t seed) {
   Config c;
   c.smooth = 1;
   c.color_frac = 8;
@@ -254,20 +250,21 @@ Image picture_of(const SceneFrame& f, int samples, std::uint64_t seed) {
   Look look;
   look.samples = samples;
   look.seed = seed;
+  const FrameGeometry g = make_geometry(f, c, kWidth, kHeight, {.look = look});
   Image image(kWidth, kHeight, 3);
   std::size_t at = 0;
-  for (const std::uint32_t p : draw(make_geometry(f, c, kWidth, kHeight, {.look = look}), c))
+  for (const std::uint32_t p : draw(g, c))
     for (unsigned k = 0; k < 24; k += 8) image.data[at++] = static_cast<std::uint8_t>(p >> k);
-  return image;
+  return {std::move(image), std::ldexp(255.0 * g.shade, -c.shade_frac)};
 }
 
 // The mean of pictures of 255 samples with 8 seeds.
 Image true_picture(const SceneFrame& f) {
   constexpr int kPictures = 8;
-  Image image = picture_of(f, 255, 100);
+  Image image = picture_of(f, 255, 100).image;
   std::vector<int> sums(image.data.size(), kPictures / 2);
   for (int i = 0; i < kPictures; ++i) {
-    const Image one = picture_of(f, 255, 100 + static_cast<std::uint64_t>(i));
+    const Image one = picture_of(f, 255, 100 + static_cast<std::uint64_t>(i)).image;
     for (std::size_t k = 0; k < sums.size(); ++k) sums[k] += one.data[k];
   }
   for (std::size_t k = 0; k < sums.size(); ++k) image.data[k] = static_cast<std::uint8_t>(sums[k] / kPictures);
@@ -282,10 +279,12 @@ void steps() {
     for (const int n : {1, 4, 8, 15, 20, 31, 63, 127, 141, 255}) {
       FlipNumbers flip;
       double squares = 0;
+      double step = 0;
       int most = 0;
       std::size_t soft = 0;
       for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-        const Image image = picture_of(f, n, seed);
+        const auto [image, of_white] = picture_of(f, n, seed);
+        step += of_white / 2;
         const FlipNumbers one = flip_metric(image, truth);
         flip.mean += one.mean / 2;
         flip.most = std::max(flip.most, one.most);
@@ -299,8 +298,7 @@ void steps() {
       fmt::print(
           "{:>9} {:3} samples: steps of {:5.2f} LSB, off by {:5.2f} LSB rms, {:3} at most; FLIP mean {:.5f}, most "
           "{:.3f}\n",
-          name_of(shape), n, Look{}.darkening * 255 / n, std::sqrt(squares / static_cast<double>(soft)), most,
-          flip.mean, flip.most);
+          name_of(shape), n, step, std::sqrt(squares / static_cast<double>(soft)), most, flip.mean, flip.most);
     }
   }
 }

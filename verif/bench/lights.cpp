@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far the light of pictures, as kage render draws them, is from the reference (verif/oracle/light_reference.hpp).
 // 320x240; errors in LSB of a channel: mean and worst over pixels in some shadow, then over those of faces that are in
-// none.
+// none. Then the same pixels in shadow by the steps to the truth that a core may take.
 #include <fmt/format.h>
 
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "contract/derived.hpp"
 #include "kage/geometry.hpp"
 #include "kage/pipeline.hpp"
 #include "oracle/judge.hpp"
@@ -18,23 +23,86 @@ using namespace kage::verif;
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 
-void reference_errors() {
-  fmt::print("{:17} {:13} {:>5} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6}\n", "scene", "configuration", "ties", "shadowed",
-             "mean", "worst", "else", "worst", "dB");
+/// A way to have light, and what it takes.
+struct Step {
+  std::string_view name;
+  int class_bits;
+  std::optional<double> darkening;
+};
+// All shadows took so much of a colour until shares were fitted.
+constexpr std::array<Step, 5> kSteps{{{"constant SHADE", 1, 0.55},
+                                      {"fitted SHADE", 1, std::nullopt},
+                                      {"CLASS_BITS 4", 4, std::nullopt},
+                                      {"CLASS_BITS 8", 8, std::nullopt},
+                                      {"CLASS_BITS 11", 11, std::nullopt}}};
+
+/// The same scenes with each of the steps that can have their lights, all with smooth colour.
+void step_errors() {
+  fmt::print("{:17}", "mean and worst");
+  for (const Step& s : kSteps) fmt::print(" {:>15}", s.name);
+  fmt::print("\n");
   for (const LitScene& lit : lit_scenes()) {
-    const Scene scene = Scene::from(lit.parts);
-    const DrawOptions options{.width = kWidth, .height = kHeight};
-    const NamedConfig chosen = choose_config(scene, options);
-    const SceneFrame f = scene.frame(0, 1);
+    const SceneFrame f = Scene::from(lit.parts).frame(0, 1);
     const RayScene rays(f);
-    const LightReference reference(f, rays, sampled_points(f, options.look), kWidth, kHeight);
-    const FrameGeometry g = make_geometry(f, chosen.config, kWidth, kHeight, {.look = options.look});
-    const LightError e = compare_light(draw(g, chosen.config), kWidth, kHeight, reference);
-    fmt::print("{:17} {:13} {:5} {:8} {:6.2f} {:6.1f} {:6.2f} {:6.1f} {:6.1f}\n", lit.name, chosen.name, e.ties,
-               e.shadowed, e.mean(), e.worst, e.lit_mean(), e.lit_worst, e.psnr());
+    const LightReference reference(f, rays, sampled_points(f, {}), kWidth, kHeight);
+    fmt::print("{:17}", lit.name);
+    for (const Step& s : kSteps) {
+      Config c;
+      c.smooth = 1;
+      c.color_frac = 8;
+      c.shade_frac = 16;
+      c.class_bits = s.class_bits;
+      c.lights = static_cast<int>(f.lights.size());
+      c.count_bits = f.lights[0].shape != LightShape::point ? 4 : derived::has_table(c) ? 1 : 0;
+      if (f.lights.size() > 1 && !derived::has_table(c)) {
+        fmt::print(" {:>15}", "");
+        continue;
+      }
+      Look look;
+      look.darkening = s.darkening;
+      const LightError e =
+          compare_light(draw(make_geometry(f, c, kWidth, kHeight, {.look = look}), c), kWidth, kHeight, reference);
+      fmt::print(" {:>15}", fmt::format("{:.2f}, {:.1f}", e.mean(), e.worst));
+    }
+    fmt::print("\n");
   }
+}
+
+void print_heading(std::string_view of) {
+  fmt::print("{:17} {:13} {:>5} {:>8} {:>6} {:>6} {:>6} {:>6} {:>6}\n", of, "configuration", "ties", "shadowed", "mean",
+             "worst", "else", "worst", "dB");
+}
+
+/// The default choice.
+void reference_errors(const std::string& name, const Scene& scene) {
+  const DrawOptions options{.width = kWidth, .height = kHeight};
+  const NamedConfig chosen = choose_config(scene, options);
+  SceneFrame f = scene.frame(0, scene.frame_count());
+  // Light on what is opaque: the reference has no layers.
+  for (Polygon& p : f.polygons)
+    if (f.triangles[p.triangle].alpha < 255) p.count = 0;
+  const RayScene rays(f);
+  const LightReference reference(f, rays, sampled_points(f, options.look), kWidth, kHeight);
+  f = scene.frame(0, scene.frame_count());
+  for (Triangle& t : f.triangles)
+    if (t.alpha < 255) t.alpha = 0;
+  const FrameGeometry g = make_geometry(f, chosen.config, kWidth, kHeight, {.look = options.look});
+  const LightError e = compare_light(draw(g, chosen.config), kWidth, kHeight, reference);
+  fmt::print("{:17} {:13} {:5} {:8} {:6.2f} {:6.1f} {:6.2f} {:6.1f} {:6.1f}\n", name, chosen.name, e.ties, e.shadowed,
+             e.mean(), e.worst, e.lit_mean(), e.lit_worst, e.psnr());
 }
 
 }  // namespace
 
-int main() { reference_errors(); }
+int main(int argc, char** argv) {
+  const std::string which = argc > 1 ? argv[1] : "";
+  if (which.empty() || which == "light") {
+    print_heading("scene");
+    for (const LitScene& lit : lit_scenes()) reference_errors(lit.name, Scene::from(lit.parts));
+  }
+  if (which.empty() || which == "built-in") {
+    print_heading("built-in scene");
+    for (const std::string& name : builtin_scenes()) reference_errors(name, Scene::load(name));
+  }
+  if (which.empty() || which == "steps") step_errors();
+}

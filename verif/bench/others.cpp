@@ -129,7 +129,7 @@ Renderer embree_renderer(const Setting& s, const EmbreeScene& scene, float offse
     parts.begin();
     const ShadowCaster caster = s.caster();
     Looks looks(s.frame, caster, shown);
-    const unsigned shade = shown == Shown::shadow ? 256 : static_cast<unsigned>(to_fixed(256 * s.look.darkening, 0));
+    const unsigned shade = shown == Shown::shadow ? 256 : static_cast<unsigned>(to_fixed(256 * *s.look.darkening, 0));
     Tracer<N>(s.frame, scene, looks, {s.width, s.height, s.background(shown), shade, offset}).run(out);
     parts.end("rays");
   };
@@ -145,7 +145,7 @@ Renderer stencil_renderer(const Setting& s, StencilRenderer& gl, StencilWay way)
     parts.begin();
     const ShadowCaster caster = s.caster();
     Looks looks(s.frame, caster, shown);
-    add_faces(s.frame, looks, shown == Shown::shadow ? 1 : s.look.darkening, *mesh);
+    add_faces(s.frame, looks, shown == Shown::shadow ? 1 : *s.look.darkening, *mesh);
     parts.end("faces");
     add_volumes(s.frame, caster, way, *mesh);
     parts.end("volumes");

@@ -3,13 +3,10 @@
 // Cases of families 29 and 30: samples of lights, and the table of what each light gives to faces of each direction.
 #pragma once
 
-#include <bitset>
-#include <optional>
 #include <vector>
 
 #include "extremes/light_frames.hpp"
 #include "extremes/scene_case.hpp"
-#include "geometry/light_table.hpp"
 
 namespace kage::verif {
 
@@ -51,48 +48,18 @@ struct LitSceneCase {
   [[nodiscard]] Outcome check(const Context& context) const;
 };
 
-/// Family 30: faces under directional lights, and the table of what each light gives to their classes.
-class TableFrame {
- public:
-  TableFrame(std::vector<Light> suns, int classes);
-  TableFrame(const TableFrame&) = delete;  // the table refers to the lights
-  TableFrame& operator=(const TableFrame&) = delete;
-  /// A face more; false: no light reaches it, and it is left out.
-  bool add(const glm::dvec3& normal);
-  /// The table is made: no face comes after it.
-  void finish();
-  [[nodiscard]] std::size_t faces() const { return faces_.size(); }
-  /// Measures, in every state of shadow, how far the shares of a face's class are off its own, against their bound. The
-  /// bound goes with the distance from the face's normal to its class's: `off_class`, or less.
-  void measure(std::size_t face, double off_class, Outcome& o, const Context& context = {}) const;
-
- private:
-  struct Face {
-    glm::dvec3 normal;
-    std::bitset<kMaxLights> reach;
-  };
-  std::vector<Light> lights_;
-  std::vector<int> samples_;
-  Lighting lighting_;
-  std::size_t count_;  // of a class's shares: LIGHTS
-  Config config_;
-  Look look_;
-  std::optional<LightTable> table_;
-  FrameGeometry g_;
-  std::vector<Face> faces_;
-};
-
-/// Family 30: directional lights on a face whose normal is not that of its class.
+/// Family 30: directional lights on a face, and its entry in the table.
 struct TableCase {
   struct Sun {
     double x = 0, y = -1, z = 0;
     double red = 1, green = 1, blue = 1;
     void fields(Fields& f);
   };
-  int classes_log = 3;
   double x = 0, y = 1, z = 0;  ///< the face's normal
   std::vector<Sun> suns;
   void fields(Fields& f);
+  /// Holds, in every state of shadow, what the face's entry takes against the light of the model, added in linear
+  /// light.
   [[nodiscard]] Outcome check(const Context& context) const;
 };
 

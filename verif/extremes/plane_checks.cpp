@@ -238,11 +238,11 @@ Outcome sides_hold(const SceneFrame& f, const Config& config, int width, int hei
   const Truth truth(f, config, width, height, look);
   // The sides are made from the volumes in space. Whether these are right is not asked here.
   const View view(f.camera, width, height, config.z_bits, truth.range, look.sub_bits);
-  const SampledLights lights(f, config, look, view);
+  const SampledLights lights(f, config, look, view.near_corners());
   const std::vector<SpaceBox> boxes = component_boxes(f);
   ShadowCache cache;
   VolumeCaster volumes(f, boxes, config.dsf_bits, look.volumes, ShadowCacheInside::of(cache));
-  const ShadowCaster& caster = lights.samples[0];
+  const ShadowCaster& caster = lights.samples()[0];
   std::vector<TrueFace> sides;
   volumes.make(0, caster, [&](const WorldVolume& w, std::uint32_t) {
     const double factor = caster.far_factor(w.caps);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "kage/light.hpp"
+#include "oracle/directions.hpp"
 
 namespace kage::verif {
 
@@ -85,8 +86,7 @@ inline void add_edges(const std::vector<glm::dvec3>& points, const glm::dvec3& t
 inline EdgeErrors edge_errors(LightShape shape, const std::vector<glm::dvec3>& points) {
   EdgeErrors e;
   if (shape == LightShape::sphere) {
-    const NormalClasses directions(360);
-    for (int i = 1; i <= directions.count(); ++i) add_edges(points, directions.normal(i), false, e);
+    for (const glm::dvec3& d : even_directions(360)) add_edges(points, d, false, e);
     return e;
   }
   constexpr int kDirections = 360;

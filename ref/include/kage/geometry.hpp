@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -185,6 +186,9 @@ struct FrameGeometry {
   }
 };
 
+/// Most classes of a light table.
+inline constexpr int kMaxClasses = 2047;
+
 /// How translucent faces are put in order.
 enum class TranslucentWay : std::uint8_t {
   exact,       ///< by a BSP tree, cut where they must be: every pixel's layers back to front [Tanaka 2005]
@@ -195,7 +199,9 @@ enum class TranslucentWay : std::uint8_t {
 /// Choices of the picture's maker.
 struct Look {
   std::array<std::uint8_t, 3> background{38, 44, 56};  ///< as displayed: red, green, blue
-  double darkening = 0.55;                             ///< share of its colour that a lit pixel loses in shadow, 0 .. 1
+  /// Share of its colour that a lit pixel loses in full shadow where there is no table, 0 .. 1; none: that of least
+  /// error for the frame.
+  std::optional<double> darkening;
   double extrusion = 1;   ///< volumes reach this many times as far as they must; for tests, >= 1
   bool far_ends = false;  ///< volumes carry their far ends as faces too, which changes no picture; for tests
   /// Depth begins at the camera's near plane wherever the nearest surface lies: coarser, so that surfaces close to each
@@ -214,8 +220,7 @@ struct Look {
   TranslucentWay translucent = TranslucentWay::exact;  ///< how translucent faces are put in order
   int samples = 15;                                    ///< of an area light, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;                              ///< of the samples' pattern
-  /// Normals that a light table tells apart, 1 .. kMaxClasses; fewer if it has no room for those in use.
-  int classes = 1024;
+  int classes = kMaxClasses;  ///< most that a light table is to tell apart, 1 .. kMaxClasses; fewer if it has no room
   /// Bits of a snapped coordinate's fraction, kLeastSubBits .. kMostSubBits: positions are rounded half up to
   /// 2^-sub_bits pixel. They stay 16.8 fixed point; below 8, their last bits are 0.
   int sub_bits = kMostSubBits;
@@ -245,6 +250,22 @@ struct GeometryOptions {
   TranslucentOrder* order = nullptr;  ///< that of the frames before; nullptr: made anew
   ShadowCache* shadows = nullptr;     ///< likewise
 };
+
+/// How far a frame's light is off on a core, in steps of 255.
+struct LightDemand {
+  /// In shadow, because faces share what shadows take: root mean square over those that casters may keep light from.
+  double share_error = 0;
+  /// With one colour a polygon: most that a corner's is from the mean of them all.
+  double color_spread = 0;
+};
+
+/// Measures the light of a frame on all of its faces, in view or not. Throws Error as make_geometry() does of the frame
+/// and the look, or if a light has more samples than the configuration counts.
+/// @param frame what is lit
+/// @param config says how many classes a table tells apart; without a table all shadows have one share
+/// @param look how
+/// @return the errors, 0 where there is no light or no face
+LightDemand light_demand(const SceneFrame& frame, const Config& config, const Look& look);
 
 /// Projects, clips and snaps a frame. docs/numbers.md has every rounding with its bound; [Matsumoto] has the volumes,
 /// [Ohno 1985] the polyhedra, [Tanaka 2005] the fragments. Throws Error if width or height is not 1 .. kMaxSize, if

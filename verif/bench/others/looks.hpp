@@ -38,7 +38,7 @@ class Looks {
   Looks(const SceneFrame& frame, const ShadowCaster& caster, Shown shown)
       : frame_(&frame),
         caster_(&caster),
-        lighting_(frame.lights, frame.camera.up),
+        lighting_(frame.lights, frame.camera.up, false),
         shown_(shown),
         looks_(frame.polygons.size()),
         known_(frame.polygons.size(), 0) {}
@@ -69,8 +69,8 @@ class Looks {
     if (shown_ == Shown::shadow) return look;
     const Triangle& t = frame_->triangles[face.triangle];
     const auto corners = frame_->outline(face);
-    const std::bitset<kMaxLights> lit(look.lit ? 1 : 0);
-    const bool by_place = lighting_.depends_on_place(lit);
+    const std::array<std::int8_t, 1> before{static_cast<std::int8_t>(look.lit ? 1 : 0)};
+    const bool by_place = lighting_.depends_on_place(before, 1);
     glm::dvec3 sum{0, 0, 0};
     glm::dvec3 color{0, 0, 0};
     for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -78,14 +78,20 @@ class Looks {
       const ShadingVertex& s = frame_->shading[of_corner];
       // As kage does it: a corner that looks as the one before is not worked out again.
       if (i == 0 || by_place || (corners.size() == 3 && of_corner != t.shading[i - 1]))
-        color =
-            lighting_.displayed(frame_->vertices[corners[i]], to_eye < 0 ? -s.normal : s.normal, s.color, lit, false);
+        color = color_of(frame_->vertices[corners[i]], to_eye < 0 ? -s.normal : s.normal, s.color, before);
       sum += color;
     }
     for (std::size_t c = 0; c < 3; ++c)
       look.color[c] = static_cast<std::uint8_t>(
           to_fixed(std::clamp(sum[static_cast<int>(c)] / static_cast<double>(corners.size()), 0.0, 255.0), 0));
     return look;
+  }
+
+  [[nodiscard]] glm::dvec3 color_of(const glm::dvec3& point, const glm::dvec3& normal, const glm::dvec3& base,
+                                    const std::array<std::int8_t, 1>& before) const {
+    glm::dvec3 light;
+    lighting_.arriving(point, normal, before, 1, std::span(&light, 1));
+    return lighting_.displayed(normal, base, light);
   }
 
   const SceneFrame* frame_;

@@ -1,157 +1,180 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light table: what its entries are where it has room for all classes and where it has not, and which faces take
-// shadow without one.
+// Shares that shadows take from faces: a table, or one for a frame. Faces with points of a light behind them.
 #include <algorithm>
 #include <cmath>
 #include <map>
 
 #include "geometry/light_table.hpp"
-#include "scene/space.hpp"
+#include "geometry/view.hpp"
+#include "kage/geometry.hpp"
+#include "kage/light.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 
 namespace kage::verif {
 namespace {
 
-struct Face {
-  glm::dvec3 normal;
-  glm::dvec3 place;
-  double area;
-  std::bitset<kMaxLights> lit;
-};
-
-std::vector<Light> random_lights(Random& random, bool directional) {
-  std::vector<Light> lights(static_cast<std::size_t>(random.in(1, 8)));
-  for (Light& l : lights) {
-    l.directional = directional || random.chance(0.3);
-    l.direction = random_direction(random);
-    l.position = random_direction(random) * random.real(3, 6);
-    l.falls_off = !l.directional;
-    l.color = glm::dvec3(random.real(0.1, 1), random.real(0.1, 1), random.real(0.1, 1)) * (l.falls_off ? 5.0 : 0.5);
-  }
-  return lights;
+Light random_lamp(Random& random) {
+  Light l;
+  l.directional = random.chance(0.3);
+  l.direction = random_direction(random);
+  l.position = random_direction(random) * random.real(4, 9);
+  l.falls_off = !l.directional;
+  l.color = glm::dvec3(random.real(0.1, 1), random.real(0.1, 1), random.real(0.1, 1)) * (l.falls_off ? 9.0 : 0.5);
+  return l;
 }
 
-/// Random lights, of which the first ones cast, and faces; their classes and the table.
-struct Tabled {
-  Tabled(Random& random, bool directional) : lights(random_lights(random, directional)) {
-    config.lights = random.in(1, static_cast<int>(lights.size()));
-    config.count_bits = 8;
-    config.class_bits = random.in(2, 7);
-    config.shade_frac = 16;
-    look.classes = random.chance(0.2) ? random.in(1, 4) : random.in(1, 300);
-    for (int l = 0; l < config.lights; ++l) samples.push_back(random.in(1, 255));
-    LightTable table(config, look, lights, lighting, samples);
-    for (int i = random.in(1, 300); i > 0; --i) {
-      Face f{random_direction(random), random_direction(random) * random.real(0, 2), random.real(0.01, 4), {}};
-      for (std::size_t l = 0; l < lights.size(); ++l) f.lit[l] = random.chance(0.6);
-      f.lit[static_cast<std::size_t>(random.in(0, config.lights - 1))] = true;
-      g.polygons.emplace_back().normal_class = table.classify(f.normal, f.place, f.area, f.lit);
-      faces.push_back(f);
-    }
-    table.finish(g);
-  }
-  /// The entry of a class and a light.
-  [[nodiscard]] const std::array<std::uint32_t, 3>& entry(std::uint32_t number, std::size_t light) const {
-    return g.shares[(number - 1) * static_cast<std::size_t>(config.lights) + light];
-  }
-  /// Whether the entries of a class are these shares, to within the rounding.
-  [[nodiscard]] bool entries_are(std::uint32_t number, const std::vector<glm::dvec3>& shares) const {
-    for (std::size_t l = 0; l < samples.size(); ++l)
-      for (int c = 0; c < 3; ++c)
-        if (std::abs(entry(number, l)[static_cast<std::size_t>(c)] - shares[l][c] / samples[l] * 65536) > 0.51)
-          return false;
-    return true;
-  }
+SceneFrame lit_scene(Random& random, int lights) {
+  SceneFrame f = random_scene(random, 8);
+  f.lights.clear();
+  for (int l = 0; l < lights; ++l) f.lights.push_back(random_lamp(random));
+  return f;
+}
 
-  std::vector<Light> lights;
-  Config config;
-  Look look;
-  Lighting lighting{lights, {0, 1, 0}};
-  std::vector<int> samples;
-  std::vector<Face> faces;
-  FrameGeometry g;
+Config tabled(int class_bits, int lights) {
+  Config c;
+  c.count_bits = 4;
+  c.lights = lights;
+  c.class_bits = class_bits;
+  c.shade_frac = 16;
+  return c;
+}
 
-  Tabled(const Tabled&) = delete;
-  Tabled& operator=(const Tabled&) = delete;
-};
+double error_of(const SceneFrame& f, const Config& c, const Look& look) {
+  const SampledLights lights(f, c, look, {});
+  const Lighting lighting(f.lights, lights, f.camera.up, false);
+  return LightTable(f, c, look, lights, lighting).error();
+}
 
 }  // namespace
 
-TEST_CASE("an entry is the mean by area over the faces of its class, however many classes became one") {
+TEST_CASE("classes stay where the camera goes, and each is one of the table's") {
   Random random(test_seed());
   CAPTURE(test_seed());
-  std::size_t merged = 0;
-  for (int round = 0; round < 300; ++round) {
+  std::uint64_t again = 0;
+  for (int round = 0; round < 40; ++round) {
     CAPTURE(round);
-    const bool directional = round % 2 == 0;
-    const Tabled t(random, directional);
-    std::map<std::uint32_t, std::vector<std::size_t>> of_class;
-    for (std::size_t i = 0; i < t.faces.size(); ++i) of_class[t.g.polygons[i].normal_class].push_back(i);
-    const std::size_t most = (std::size_t{1} << t.config.class_bits) - 1;
-    REQUIRE(of_class.begin()->first == 1);
-    REQUIRE(of_class.rbegin()->first == of_class.size());
-    REQUIRE(of_class.size() <= most);
-    REQUIRE(t.g.shares.size() == of_class.size() * static_cast<std::size_t>(t.config.lights));
-    if (std::any_of(t.lights.begin(), t.lights.end(), [](const Light& l) { return !l.directional; })) {
-      for (const auto& [number, members] : of_class) {
-        std::vector<glm::dvec3> mean(t.lights.size(), glm::dvec3(0));
-        double area = 0;
-        for (const std::size_t i : members) {
-          const Face& f = t.faces[i];
-          const auto shares = t.lighting.shares(f.place, f.normal, f.lit, false);
-          for (std::size_t l = 0; l < mean.size(); ++l) mean[l] += shares[l] * f.area;
-          area += f.area;
-        }
-        for (glm::dvec3& m : mean) m /= area;
-        CHECK(t.entries_are(number, mean));
+    SceneFrame f = lit_scene(random, random.in(1, 3));
+    const Config c = tabled(random.in(2, 5), static_cast<int>(f.lights.size()));
+    std::map<std::pair<std::uint32_t, bool>, std::uint32_t> known;
+    std::vector<std::array<std::uint32_t, 3>> shares;
+    for (int view = 0; view < 4; ++view) {
+      const glm::dvec3 eye = random_direction(random) * 9.0;
+      look_at(f.camera, eye, {0, 0, 0});
+      f.camera.up = {0, 1, 0};
+      f.camera.perspective = true;
+      const FrameGeometry g = make_geometry(f, c, 64, 48);
+      REQUIRE(g.shares.size() % static_cast<std::size_t>(c.lights) == 0);
+      const std::size_t classes = g.shares.size() / static_cast<std::size_t>(c.lights);
+      REQUIRE(classes < std::size_t{1} << c.class_bits);
+      if (view > 0) CHECK(g.shares == shares);
+      shares = g.shares;
+      for (std::uint32_t i = 0; i < g.drawn; ++i) {
+        const ScreenPolygon& p = g.polygons[i];
+        CHECK((p.normal_class > 0) == p.lit);
+        if (!p.lit) continue;
+        REQUIRE(p.normal_class <= classes);
+        const Triangle& t = f.triangles[f.polygons[p.source].triangle];
+        const glm::dvec3 a = f.vertices[t.vertex[0]];
+        const bool outside =
+            glm::dot(glm::cross(f.vertices[t.vertex[1]] - a, f.vertices[t.vertex[2]] - a), eye - a) > 0;
+        const auto [at, fresh] = known.try_emplace({p.source, outside}, p.normal_class);
+        CHECK(at->second == p.normal_class);
+        again += fresh ? 0 : 1;
       }
-      continue;
     }
-    // Entries of the class's own normal, and of all lights that reach one of its faces. The number of normals may
-    // have been halved several times.
-    bool right = false;
-    for (int count = t.look.classes; !right; count /= 2) {
-      const NormalClasses normals(std::max(count, 1));
-      right = true;
-      for (const auto& [number, members] : of_class) {
-        std::bitset<kMaxLights> lit;
-        for (const std::size_t i : members) lit |= t.faces[i].lit;
-        bool some = false;
-        for (int n = 1; n <= normals.count() && !some; ++n)
-          some = t.entries_are(number, t.lighting.shares({}, normals.normal(n), lit, false));
-        right = right && some;
-      }
-      merged += right && count != t.look.classes ? 1 : 0;
-      if (count <= 1) break;
-    }
-    CHECK(right);
   }
-  CAPTURE(merged);
-  CHECK(merged > 20);
+  CHECK(again > 1000);
 }
 
-TEST_CASE("without table a face takes shadow where all samples of the light are before it") {
+TEST_CASE("more classes are nearer, and enough of them are exact") {
+  Random random(test_seed(1));
+  CAPTURE(test_seed(1));
+  for (int round = 0; round < 20; ++round) {
+    SceneFrame f = lit_scene(random, random.in(1, 3));
+    for (Light& l : f.lights) l.directional = true, l.falls_off = false;
+    Config one;
+    one.shade_frac = 16;
+    const int lights = static_cast<int>(f.lights.size());
+    double before = lights == 1 ? error_of(f, one, {}) : INFINITY;
+    for (const int bits : {2, 4, 11}) {
+      const double error = error_of(f, tabled(bits, lights), {});
+      CAPTURE(round, bits, before);
+      CHECK(error <= before * 1.02 + 0.01);
+      before = error;
+    }
+    CHECK(before < 0.01);
+    Look few;
+    few.classes = 3;
+    CHECK(error_of(f, tabled(11, lights), few) == error_of(f, tabled(2, lights), {}));
+  }
+}
+
+TEST_CASE("no share for a whole frame has less error than the one that it has") {
+  Random random(test_seed(2));
+  CAPTURE(test_seed(2));
+  for (int round = 0; round < 20; ++round) {
+    const SceneFrame f = lit_scene(random, 1);
+    Config c;
+    c.shade_frac = 16;
+    const double fitted = error_of(f, c, {});
+    const FrameGeometry g = make_geometry(f, c, 64, 48);
+    for (int i = 0; i <= 20; ++i) {
+      Look look;
+      look.darkening = i / 20.0;
+      CHECK(error_of(f, c, look) >= fitted - 0.01);
+      CHECK(make_geometry(f, c, 64, 48, {.look = look}).shade == std::lround(65536 * i / 20.0));
+    }
+    Look same;
+    same.darkening = g.shade / 65536.0;
+    CHECK(std::abs(error_of(f, c, same) - fitted) < 0.01);
+  }
+}
+
+TEST_CASE("a face takes shadow where some sample of the light is before it, and shows all that they give") {
   SceneFrame f;
-  add_solid(f, pane_solid(), {0, 0, 0}, {1, 1, 1}, Turn{}, {1, 1, 1}, false, false);
+  add_solid(f, pane_solid(), {0, 0, 0}, {1, 1, 1}, Turn{}, {0.3, 0.3, 0.3}, false, false);
   look_at(f.camera, {0.5, 0.5, 5}, {0, 0, 0});
   Light& l = f.lights[0];
   l.directional = false;
   l.shape = LightShape::disc;
   l.axis_u = {0, 0, 1};
   l.axis_v = {1, 0, 0};
-  Config c;
-  c.count_bits = 4;
-  const auto lit = [&](double z) {
-    l.position = {0, 0, z};
-    const FrameGeometry g = make_geometry(f, c, 64, 48);
-    REQUIRE(g.drawn > 0);
-    return g.polygons[0].lit;
-  };
-  CHECK(lit(1.1));
-  CHECK_FALSE(lit(0.5));  // some of its 15 samples are behind
-  CHECK_FALSE(lit(-0.5));
-  CHECK_FALSE(lit(-3));
+  for (const int class_bits : {1, 4}) {
+    Config c = tabled(class_bits, 1);
+    const auto made = [&](double z) {
+      l.position = {0, 0, z};
+      FrameGeometry g = make_geometry(f, c, 64, 48);
+      REQUIRE(g.drawn > 0);
+      return g;
+    };
+    CHECK(made(1.1).polygons[0].lit);
+    CHECK(made(0.5).polygons[0].lit);   // some of its 15 samples are behind
+    CHECK(made(-0.5).polygons[0].lit);  // most are
+    CHECK_FALSE(made(-1.5).polygons[0].lit);
+    // The pane's own shadow, of those behind, leaves what the others give.
+    for (const double z : {0.8, 0.5, 0.1, -0.5}) {
+      const FrameGeometry g = made(z);
+      const auto points = light_points(l, 15, Look{}.seed);
+      const auto behind =
+          std::count_if(points.begin(), points.end(), [](const LightPoint& p) { return p.position.z < 0; });
+      REQUIRE(behind > 0);
+      const double share = std::ldexp(class_bits > 1 ? g.shares[0][0] : g.shade, -c.shade_frac);
+      double light = 0;  // at the corners, whose mean the face has
+      for (const glm::dvec3& at : f.vertices)
+        for (const LightPoint& p : points)
+          if (p.position.z > 0) {
+            Light one = l;
+            one.position = p.position;
+            light += received(one, at, {0, 0, 1}).x / 15;
+          }
+      CAPTURE(class_bits, z, behind, share);
+      CHECK(share > 0);
+      const double shown = g.polygons[0].color[0] * (1 - share * static_cast<double>(behind));
+      const double all = 255 * srgb_encode(0.3 * (0.24 + 0.8 * light / 4));
+      CHECK(std::abs(shown - all) < 4);
+    }
+  }
 }
 
 }  // namespace kage::verif
