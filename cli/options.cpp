@@ -164,8 +164,8 @@ static void option_lights(Command command, cosim::SourceOptions& options) {
       .type_name("N");
   command
       .add_option("--classes", options.classes,
-                  fmt::format("normals that the table of several lights tells apart, spread evenly; default {}",
-                              options.classes))
+                  "classes that a light table tells apart, of faces that lose alike in shadow; default: as many as it "
+                  "has room for")
       .check(whole_number(1, kMaxClasses))
       .type_name("N");
 }

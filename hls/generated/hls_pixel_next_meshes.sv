@@ -9,7 +9,7 @@
 module hls_pixel_next_meshes (
     input  wire logic [23:0] pixel_z_i,
     input  wire logic [23:0] pixel_color_i,
-    input  wire logic pixel_lit_class_i,
+    input  wire logic [3:0] pixel_lit_class_i,
     input  wire logic [3:0] pixel_dsf_i,
     input  wire logic pixel_fsf_i,
     input  wire logic pixel_count_i,
@@ -17,12 +17,12 @@ module hls_pixel_next_meshes (
     input  wire logic [23:0] z_i,
     input  wire logic [23:0] color_i,
     input  wire logic [23:0] blended_i,
-    input  wire logic lit_class_i,
+    input  wire logic [3:0] lit_class_i,
     input  wire logic [3:0] change_i,
     input  wire logic [2:0] light_i,
     output logic [23:0] z_o,
     output logic [23:0] color_o,
-    output logic lit_class_o,
+    output logic [3:0] lit_class_o,
     output logic [3:0] dsf_o,
     output logic fsf_o,
     output logic count_o
@@ -31,39 +31,53 @@ module hls_pixel_next_meshes (
   wire ult_14 = z_i < pixel_z_i;
   wire eq_16 = kind_i == 4'd6;
   wire and_18 = ult_14 & eq_16;
-  wire [3:0] sum = pixel_dsf_i + change_i;
-  wire eq_21 = kind_i == 4'd14;
-  wire [23:0] mux_22 = and_18 ? z_i : pixel_z_i;
-  wire [23:0] mux_24 = eq_21 ? 24'd16777215 : mux_22;
+  wire eq_20 = kind_i == 4'd7;
+  wire and_21 = ult_14 & eq_20;
+  wire eq_23 = kind_i == 4'd14;
+  wire [23:0] mux_24 = and_18 ? z_i : pixel_z_i;
+  wire [23:0] mux_26 = eq_23 ? 24'd16777215 : mux_24;
   wire [7:0] color = and_18 ? color_i[7:0] : pixel_color_i[7:0];
-  wire [7:0] mux_29 = eq_21 ? 8'd0 : color;
+  wire [7:0] mux_31 = eq_23 ? 8'd0 : color;
   wire [7:0] color_2 = and_18 ? color_i[15:8] : pixel_color_i[15:8];
-  wire [7:0] mux_33 = eq_21 ? 8'd0 : color_2;
+  wire [7:0] mux_35 = eq_23 ? 8'd0 : color_2;
   wire [7:0] color_3 = and_18 ? color_i[23:16] : pixel_color_i[23:16];
-  wire [7:0] mux_37 = eq_21 ? 8'd0 : color_3;
-  wire eq_39 = kind_i == 4'd10;
-  wire xor_40 = ~eq_21;
-  wire eq_42 = kind_i == 4'd8;
-  wire eq_44 = kind_i == 4'd7;
-  wire and_45 = ult_14 & eq_44;
-  wire or_46 = eq_42 | and_45;
-  wire mux_47 = and_18 ? lit_class_i : pixel_lit_class_i;
-  wire [3:0] mux_48 = or_46 ? sum : pixel_dsf_i;
-  wire [3:0] mux_50 = eq_39 ? 4'd0 : mux_48;
-  wire eq_51 = sum == 4'd0;
-  wire xor_52 = ~eq_51;
-  wire and_53 = eq_39 & xor_52;
-  wire or_54 = pixel_fsf_i | and_53;
-  wire and_55 = xor_40 & mux_47;
-  wire [3:0] mux_56 = eq_21 ? 4'd0 : mux_50;
-  wire and_57 = xor_40 & or_54;
+  wire [7:0] mux_39 = eq_23 ? 8'd0 : color_3;
+  wire [3:0] add_40 = pixel_dsf_i + change_i;
+  wire eq_42 = kind_i == 4'd10;
+  wire eq_44 = kind_i == 4'd8;
+  wire or_45 = and_21 | eq_44;
+  wire xor_46 = ~eq_23;
+  wire and_48 = and_18 & xor_46;
+  wire xor_49 = ~and_18;
+  wire and_50 = xor_46 & xor_49;
+  wire [3:0] mux_51 = and_48 ? lit_class_i : 4'd0;
+  wire [3:0] mux_52 = or_45 ? add_40 : pixel_dsf_i;
+  wire [3:0] mux_53 = and_48 ? mux_52 : 4'd0;
+  wire [3:0] mux_54 = and_50 ? pixel_lit_class_i : mux_51;
+  wire eq_59 = {kind_i[3], 1'd0, kind_i[1:0]} == 4'd10;
+  wire [3:0] mux_60 = eq_59 ? 4'd0 : mux_52;
+  wire [3:0] mux_61 = and_50 ? mux_60 : mux_53;
+  wire eq_62 = kind_i == 4'd11;
+  wire xor_63 = ~eq_62;
+  wire and_64 = and_50 & xor_63;
+  wire or_65 = and_48 | and_64;
+  wire eq_66 = add_40 == 4'd0;
+  wire xor_67 = ~eq_66;
+  wire and_68 = eq_42 & xor_67;
+  wire or_69 = pixel_fsf_i | and_68;
+  wire and_70 = or_65 & or_69;
+  wire more = ~pixel_count_i;
+  wire and_72 = pixel_fsf_i & eq_62;
+  wire and_73 = more & and_72;
+  wire mux_74 = and_73 ? more : pixel_count_i;
+  wire and_75 = xor_46 & mux_74;
 
-  assign z_o = mux_24;
-  assign color_o = {mux_37, mux_33, mux_29};
-  assign lit_class_o = and_55;
-  assign dsf_o = mux_56;
-  assign fsf_o = and_57;
-  assign count_o = 1'd0;
+  assign z_o = mux_26;
+  assign color_o = {mux_39, mux_35, mux_31};
+  assign lit_class_o = mux_54;
+  assign dsf_o = mux_61;
+  assign fsf_o = and_70;
+  assign count_o = and_75;
 endmodule
 
 `default_nettype wire

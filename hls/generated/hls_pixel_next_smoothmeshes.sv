@@ -9,7 +9,7 @@
 module hls_pixel_next_smoothmeshes (
     input  wire logic [23:0] pixel_z_i,
     input  wire logic [23:0] pixel_color_i,
-    input  wire logic pixel_lit_class_i,
+    input  wire logic [3:0] pixel_lit_class_i,
     input  wire logic [3:0] pixel_dsf_i,
     input  wire logic pixel_fsf_i,
     input  wire logic pixel_count_i,
@@ -17,12 +17,12 @@ module hls_pixel_next_smoothmeshes (
     input  wire logic [23:0] z_i,
     input  wire logic [23:0] color_i,
     input  wire logic [23:0] blended_i,
-    input  wire logic lit_class_i,
+    input  wire logic [3:0] lit_class_i,
     input  wire logic [3:0] change_i,
     input  wire logic [2:0] light_i,
     output logic [23:0] z_o,
     output logic [23:0] color_o,
-    output logic lit_class_o,
+    output logic [3:0] lit_class_o,
     output logic [3:0] dsf_o,
     output logic fsf_o,
     output logic count_o
@@ -31,75 +31,86 @@ module hls_pixel_next_smoothmeshes (
   wire eq_15 = pixel_z_i == 24'd16777215;
   wire ult_16 = z_i < pixel_z_i;
   wire eq_18 = kind_i == 4'd6;
-  wire and_20 = ult_16 & eq_18;
-  wire [3:0] sum = pixel_dsf_i + change_i;
-  wire eq_23 = kind_i == 4'd12;
-  wire xor_24 = ~eq_23;
-  wire or_25 = eq_15 | xor_24;
-  wire xor_26 = ~pixel_fsf_i;
-  wire or_27 = or_25 | xor_26;
-  wire xor_28 = ~or_27;
-  wire and_29 = pixel_lit_class_i & xor_28;
-  wire eq_31 = kind_i == 4'd13;
-  wire and_32 = ult_16 & eq_31;
-  wire or_33 = and_29 | and_32;
-  wire eq_35 = kind_i == 4'd7;
-  wire and_36 = ult_16 & eq_35;
-  wire eq_38 = kind_i == 4'd14;
-  wire [23:0] mux_39 = and_20 ? z_i : pixel_z_i;
-  wire [23:0] mux_40 = eq_38 ? 24'd16777215 : mux_39;
-  wire and_41 = eq_15 & eq_23;
-  wire or_42 = and_20 | and_41;
-  wire xor_43 = ~or_42;
-  wire [7:0] mux_46 = eq_38 ? 8'd0 : color_i[7:0];
-  wire [7:0] mux_48 = eq_38 ? 8'd0 : color_i[15:8];
-  wire and_49 = or_33 & xor_43;
-  wire xor_50 = ~or_33;
-  wire and_51 = xor_43 & xor_50;
-  wire [7:0] mux_53 = eq_38 ? 8'd0 : blended_i[7:0];
-  wire [7:0] mux_54 = and_49 ? mux_53 : mux_46;
-  wire [7:0] mux_56 = eq_38 ? 8'd0 : blended_i[15:8];
-  wire [7:0] mux_57 = and_49 ? mux_56 : mux_48;
-  wire [7:0] mux_59 = eq_38 ? 8'd0 : pixel_color_i[7:0];
-  wire [7:0] mux_60 = and_51 ? mux_59 : mux_54;
-  wire [7:0] mux_62 = eq_38 ? 8'd0 : pixel_color_i[15:8];
-  wire [7:0] mux_63 = and_51 ? mux_62 : mux_57;
-  wire [7:0] mux_67 = and_49 ? blended_i[23:16] : pixel_color_i[23:16];
-  wire [7:0] color = or_42 ? color_i[23:16] : mux_67;
-  wire [7:0] mux_69 = eq_38 ? 8'd0 : color;
-  wire eq_71 = kind_i == 4'd10;
-  wire eq_73 = kind_i == 4'd8;
-  wire or_74 = and_36 | eq_73;
-  wire xor_75 = ~eq_38;
-  wire mux_77 = and_20 ? lit_class_i : pixel_lit_class_i;
-  wire and_78 = xor_75 & mux_77;
-  wire and_79 = eq_23 & xor_75;
-  wire xor_80 = ~eq_71;
-  wire and_81 = xor_24 & xor_80;
-  wire and_82 = eq_71 & xor_75;
-  wire or_83 = and_79 | and_82;
-  wire and_84 = xor_75 & and_81;
-  wire [3:0] mux_85 = or_74 ? sum : pixel_dsf_i;
-  wire or_86 = or_83 | and_84;
-  wire [3:0] mux_87 = and_84 ? mux_85 : 4'd0;
-  wire [3:0] mux_88 = or_83 ? 4'd0 : mux_87;
-  wire [3:0] mux_89 = or_86 ? mux_88 : 4'd0;
-  wire and_90 = eq_23 & or_86;
-  wire and_91 = xor_24 & or_86;
-  wire eq_92 = sum == 4'd0;
-  wire xor_93 = ~eq_92;
-  wire and_94 = eq_71 & xor_93;
-  wire or_95 = pixel_fsf_i | and_94;
-  wire and_96 = and_91 & or_95;
-  wire xor_97 = ~and_90;
-  wire and_98 = and_96 & xor_97;
+  wire and_19 = ult_16 & eq_18;
+  wire eq_21 = kind_i == 4'd12;
+  wire eq_23 = kind_i == 4'd10;
+  wire eq_25 = kind_i == 4'd7;
+  wire and_26 = ult_16 & eq_25;
+  wire eq_28 = kind_i == 4'd14;
+  wire [23:0] mux_29 = and_19 ? z_i : pixel_z_i;
+  wire [23:0] mux_30 = eq_28 ? 24'd16777215 : mux_29;
+  wire eq_32 = kind_i == 4'd1;
+  wire and_33 = eq_15 & eq_21;
+  wire or_34 = and_19 | eq_32;
+  wire or_35 = and_33 | or_34;
+  wire xor_36 = ~or_35;
+  wire [7:0] mux_39 = eq_28 ? 8'd0 : color_i[7:0];
+  wire [7:0] mux_41 = eq_28 ? 8'd0 : color_i[15:8];
+  wire eq_43 = kind_i == 4'd13;
+  wire and_44 = ult_16 & eq_43;
+  wire and_45 = xor_36 & and_44;
+  wire xor_46 = ~and_44;
+  wire and_47 = xor_36 & xor_46;
+  wire [7:0] mux_49 = and_45 ? blended_i[7:0] : mux_39;
+  wire [7:0] mux_51 = and_45 ? blended_i[15:8] : mux_41;
+  wire [7:0] mux_53 = eq_28 ? 8'd0 : pixel_color_i[7:0];
+  wire [7:0] mux_54 = and_47 ? mux_53 : mux_49;
+  wire [7:0] mux_56 = eq_28 ? 8'd0 : pixel_color_i[15:8];
+  wire [7:0] mux_57 = and_47 ? mux_56 : mux_51;
+  wire [7:0] mux_61 = and_45 ? blended_i[23:16] : pixel_color_i[23:16];
+  wire [7:0] color = or_35 ? color_i[23:16] : mux_61;
+  wire [7:0] mux_63 = eq_28 ? 8'd0 : color;
+  wire [3:0] add_64 = pixel_dsf_i + change_i;
+  wire eq_66 = kind_i == 4'd11;
+  wire eq_68 = kind_i == 4'd8;
+  wire or_69 = and_26 | eq_68;
+  wire xor_70 = ~eq_28;
+  wire [3:0] mux_72 = and_19 ? lit_class_i : pixel_lit_class_i;
+  wire [3:0] mux_73 = eq_28 ? 4'd0 : mux_72;
+  wire xor_74 = ~eq_21;
+  wire and_75 = eq_21 & xor_70;
+  wire xor_76 = ~eq_23;
+  wire and_77 = xor_74 & xor_76;
+  wire and_78 = eq_23 & xor_70;
+  wire or_79 = and_75 | and_78;
+  wire and_80 = xor_70 & and_77;
+  wire [3:0] mux_81 = or_69 ? add_64 : pixel_dsf_i;
+  wire or_82 = or_79 | and_80;
+  wire [3:0] mux_83 = and_80 ? mux_81 : 4'd0;
+  wire [3:0] mux_84 = or_82 ? mux_83 : 4'd0;
+  wire [3:0] add_86 = kind_i + 4'd5;
+  wire eq_90 = add_86[3:1] == 3'd0;
+  wire and_91 = or_82 & eq_90;
+  wire xor_92 = ~eq_90;
+  wire and_93 = or_82 & xor_92;
+  wire eq_94 = add_64 == 4'd0;
+  wire xor_95 = ~eq_94;
+  wire and_96 = eq_23 & xor_95;
+  wire or_97 = pixel_fsf_i | and_96;
+  wire or_98 = and_91 | and_93;
+  wire and_99 = and_93 & or_97;
+  wire and_100 = or_98 & and_99;
+  wire more = ~pixel_count_i;
+  wire and_102 = eq_28 & or_98;
+  wire eq_103 = kind_i == 4'd2;
+  wire xor_104 = ~eq_103;
+  wire and_105 = xor_70 & xor_104;
+  wire and_106 = or_98 & eq_103;
+  wire or_107 = and_102 | and_106;
+  wire and_108 = or_98 & and_105;
+  wire and_109 = pixel_fsf_i & eq_66;
+  wire and_110 = more & and_109;
+  wire mux_111 = and_110 ? more : pixel_count_i;
+  wire and_112 = and_108 & mux_111;
+  wire xor_113 = ~or_107;
+  wire and_114 = and_112 & xor_113;
 
-  assign z_o = mux_40;
-  assign color_o = {mux_69, mux_63, mux_60};
-  assign lit_class_o = and_78;
-  assign dsf_o = mux_89;
-  assign fsf_o = and_98;
-  assign count_o = 1'd0;
+  assign z_o = mux_30;
+  assign color_o = {mux_63, mux_57, mux_54};
+  assign lit_class_o = mux_73;
+  assign dsf_o = mux_84;
+  assign fsf_o = and_100;
+  assign count_o = and_114;
 endmodule
 
 `default_nettype wire

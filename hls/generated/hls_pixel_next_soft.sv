@@ -9,7 +9,7 @@
 module hls_pixel_next_soft (
     input  wire logic [23:0] pixel_z_i,
     input  wire logic [23:0] pixel_color_i,
-    input  wire logic pixel_lit_class_i,
+    input  wire logic [3:0] pixel_lit_class_i,
     input  wire logic pixel_dsf_i,
     input  wire logic pixel_fsf_i,
     input  wire logic [7:0] pixel_count_i,
@@ -17,12 +17,12 @@ module hls_pixel_next_soft (
     input  wire logic [23:0] z_i,
     input  wire logic [23:0] color_i,
     input  wire logic [23:0] blended_i,
-    input  wire logic lit_class_i,
+    input  wire logic [3:0] lit_class_i,
     input  wire logic change_i,
     input  wire logic [2:0] light_i,
     output logic [23:0] z_o,
     output logic [23:0] color_o,
-    output logic lit_class_o,
+    output logic [3:0] lit_class_o,
     output logic dsf_o,
     output logic fsf_o,
     output logic [7:0] count_o
@@ -43,36 +43,36 @@ module hls_pixel_next_soft (
   wire [7:0] mux_37 = eq_21 ? 8'd0 : color_3;
   wire xor_38 = pixel_dsf_i ^ change_i;
   wire xor_39 = ~eq_21;
-  wire eq_41 = kind_i == 4'd8;
-  wire eq_43 = kind_i == 4'd7;
-  wire and_44 = ult_14 & eq_43;
-  wire or_45 = eq_41 | and_44;
-  wire mux_46 = and_17 ? lit_class_i : pixel_lit_class_i;
-  wire and_47 = xor_39 & mux_46;
-  wire mux_48 = or_45 ? xor_38 : pixel_dsf_i;
-  wire xor_49 = ~eq_19;
-  wire and_50 = mux_48 & xor_49;
-  wire and_51 = xor_39 & and_50;
-  wire eq_53 = kind_i == 4'd11;
-  wire xor_54 = ~eq_53;
-  wire and_55 = xor_39 & xor_54;
-  wire and_56 = eq_19 & xor_38;
-  wire or_57 = pixel_fsf_i | and_56;
-  wire and_58 = and_55 & or_57;
-  wire xor_59 = ~pixel_fsf_i;
-  wire or_60 = xor_54 | xor_59;
-  wire eq_62 = pixel_count_i == 8'd255;
-  wire [7:0] add_64 = pixel_count_i + 8'd1;
-  wire [7:0] mux_65 = eq_62 ? 8'd255 : add_64;
-  wire [7:0] mux_66 = or_60 ? pixel_count_i : mux_65;
-  wire [7:0] mux_67 = eq_21 ? 8'd0 : mux_66;
+  wire eq_42 = kind_i == 4'd8;
+  wire eq_44 = kind_i == 4'd7;
+  wire and_45 = ult_14 & eq_44;
+  wire or_46 = eq_42 | and_45;
+  wire [3:0] mux_47 = and_17 ? lit_class_i : pixel_lit_class_i;
+  wire [3:0] mux_48 = eq_21 ? 4'd0 : mux_47;
+  wire mux_49 = or_46 ? xor_38 : pixel_dsf_i;
+  wire xor_50 = ~eq_19;
+  wire and_51 = mux_49 & xor_50;
+  wire and_52 = xor_39 & and_51;
+  wire eq_54 = kind_i == 4'd11;
+  wire xor_55 = ~eq_54;
+  wire and_56 = xor_39 & xor_55;
+  wire and_57 = eq_19 & xor_38;
+  wire or_58 = pixel_fsf_i | and_57;
+  wire and_59 = and_56 & or_58;
+  wire xor_60 = ~pixel_fsf_i;
+  wire or_61 = xor_55 | xor_60;
+  wire eq_63 = pixel_count_i == 8'd255;
+  wire [7:0] add_65 = pixel_count_i + 8'd1;
+  wire [7:0] mux_66 = eq_63 ? 8'd255 : add_65;
+  wire [7:0] mux_67 = or_61 ? pixel_count_i : mux_66;
+  wire [7:0] mux_68 = eq_21 ? 8'd0 : mux_67;
 
   assign z_o = mux_24;
   assign color_o = {mux_37, mux_33, mux_29};
-  assign lit_class_o = and_47;
-  assign dsf_o = and_51;
-  assign fsf_o = and_58;
-  assign count_o = mux_67;
+  assign lit_class_o = mux_48;
+  assign dsf_o = and_52;
+  assign fsf_o = and_59;
+  assign count_o = mux_68;
 endmodule
 
 `default_nettype wire

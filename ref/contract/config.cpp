@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "contract/config_text.hpp"
+#include "contract/derived.hpp"
 #include "file/meant.hpp"
 #include "file/one_line.hpp"
 #include "file/plain_io.hpp"
@@ -228,6 +229,13 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   if (needs.color && config.channels == 1) missing.emplace_back("colour (CHANNELS = 3)");
   if (needs.width > config.max_width) missing.push_back(fmt::format("MAX_WIDTH >= {}", needs.width));
   return missing;
+}
+
+std::vector<std::string> approximates(const Config& config, const Needs& needs) {
+  std::vector<std::string> rough;
+  if (needs.near_light() && config.smooth == 0) rough.emplace_back("light within a face (SMOOTH)");
+  if (needs.light_table() && !derived::has_table(config)) rough.emplace_back("what shadows take (CLASS_BITS)");
+  return rough;
 }
 
 namespace {

@@ -27,9 +27,10 @@ bool for_anybody(const Config& c, const Needs& needs) {
          !(needs.shadows && needs.several_volumes && one_volume_only);
 }
 
-/// Whether it counts light samples that the scene has not.
+/// Whether it counts light samples that the scene has not. A table of one light needs a counter of one.
 bool counts_in_vain(const Config& c, const Needs& needs) {
-  return c.count_bits > 0 && (!needs.shadows || (needs.samples == 1 && needs.lights == 1));
+  const bool hard = needs.samples == 1 && needs.lights == 1;
+  return c.count_bits > (hard && needs.light_table() ? 1 : 0) && (!needs.shadows || hard);
 }
 
 /// The named configurations that come into question, in listed order.
@@ -51,7 +52,7 @@ std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs, con
   for (const NamedConfig& n : in_question(needs)) {
     const int way = needs.shadows ? n.config.dsf_bits : 0;
     order.emplace_back(way, ways[way].size());
-    ways[way].push_back({n, 0, estimated_cells(n.config).luts});
+    ways[way].push_back({n, 0, estimated_cells(n.config).luts, approximates(n.config, needs)});
   }
   if (order.size() > 1)
     for (auto& [way, list] : ways) {
@@ -86,8 +87,10 @@ NamedConfig choose_config(const Scene& scene, const DrawOptions& draw) {
   const int frames = draw.frames > 0 ? draw.frames : scene.frame_count();
   const SceneFrame first = scene.frame(0, frames);
   const Needs needs = needs_of(scene, first, draw.width, draw.height, draw.look.samples);
-  const std::vector<ChoiceCost> all = choices(first, needs, draw);
+  std::vector<ChoiceCost> all = choices(first, needs, draw);
   if (all.empty()) return choose_config(needs);
+  const auto rough = [](const ChoiceCost& c) { return !c.rough.empty(); };
+  if (!std::all_of(all.begin(), all.end(), rough)) std::erase_if(all, rough);
   const ChoiceCost* best = all.data();
   for (const ChoiceCost& c : all)
     if (c.cost() < kWorthMoving * best->cost()) best = &c;

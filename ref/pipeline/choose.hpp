@@ -18,8 +18,9 @@ inline constexpr int kJudgedHeight = 480;
 /// A named configuration that can draw a scene, with what the scene's first frame costs it at 640x480.
 struct ChoiceCost {
   NamedConfig named;
-  std::uint64_t clocks = 0;  ///< of the frame, by design (docs/rtl.md, "Clocks")
-  double luts = 0;           ///< of the core, estimated
+  std::uint64_t clocks = 0;        ///< of the frame, by design (docs/rtl.md, "Clocks")
+  double luts = 0;                 ///< of the core, estimated
+  std::vector<std::string> rough;  ///< approximates(): taken only where no other serves
 
   /// Clocks times look-up tables: what a picture takes of an FPGA's area and time together.
   [[nodiscard]] double cost() const { return static_cast<double>(clocks) * luts; }

@@ -9,6 +9,7 @@
 #include <map>
 #include <set>
 
+#include "contract/derived.hpp"
 #include "contract/kinds.hpp"
 #include "kage/frontend.hpp"
 #include "stream/token_pieces.hpp"
@@ -98,8 +99,15 @@ void add_geometry(const FrameGeometry& g, const Config& config, const PlanPlace&
       if (g.polygons[i].color_planes >= 0) out.color_span.raise(most, at);
     }
   if (config.dsf_bits == 0) return;
-  if (!g.shares.empty()) out.classes.raise(static_cast<double>(g.shares.size()) / config.lights, at);
   add_groups(g, config, at, seen, out.groups);
+}
+
+void add_classes(const SceneFrame& frame, Config config, const Look& look, const PlanPlace& at, WayDemand& out) {
+  if (config.dsf_bits == 0 || !derived::has_table(config)) return;
+  for (std::size_t i = 0; i < kClassSteps.size(); ++i) {
+    config.class_bits = kClassSteps[i];
+    out.class_errors[i].raise(light_demand(frame, config, look).share_error, at);
+  }
 }
 
 bool changes_color(const SpanToken& s, int channels) {
@@ -131,6 +139,8 @@ Features features_of(std::span<const PlannedScene> scenes) {
       needs.shadows = needs.shadows || n.shadows;
       needs.several_volumes = needs.several_volumes || n.several_volumes;
       needs.smooth = needs.smooth || n.smooth;
+      needs.share_error = std::max(needs.share_error, n.share_error);
+      needs.color_spread = std::max(needs.color_spread, n.color_spread);
       needs.color = needs.color || n.color;
       needs.translucency = needs.translucency || n.translucency;
       needs.lights = std::max(needs.lights, n.lights);
@@ -148,8 +158,8 @@ Config finest(const Features& features, int dsf_bits, int units) {
   c.z_bits = 24;
   c.z_frac = kGreatest.z_frac;
   c.channels = needs.color ? 3 : 1;
-  c.smooth = needs.smooth ? 1 : 0;
-  c.color_frac = needs.smooth ? kGreatest.color_frac : 0;
+  c.smooth = needs.smooth || needs.near_light() ? 1 : 0;
+  c.color_frac = c.smooth > 0 ? kGreatest.color_frac : 0;
   c.dsf_bits = dsf_bits;
   c.fsf = dsf_bits > 0 ? 1 : 0;
   c.shade_frac = kGreatest.shade_frac;
@@ -161,8 +171,9 @@ Config finest(const Features& features, int dsf_bits, int units) {
     c.seg_bits = kGreatest.seg_bits;
     c.order_bits = kGreatest.order_bits;
   }
-  if (dsf_bits > 0 && (needs.samples > 1 || needs.lights > 1)) c.count_bits = kGreatest.count_bits;
-  if (dsf_bits > 0 && needs.lights > 1) {
+  const bool table = needs.lights > 1 || needs.light_table();
+  if (dsf_bits > 0 && (needs.samples > 1 || table)) c.count_bits = kGreatest.count_bits;
+  if (dsf_bits > 0 && table) {
     c.lights = needs.lights;
     c.class_bits = kGreatest.class_bits;
   }
@@ -178,7 +189,10 @@ WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& featur
   std::set<GroupKey> seen;
   each_frame(
       scenes, config, step,
-      [&](const FrameParts& parts, const PlanPlace& at) { add_geometry(parts.geometry, config, at, seen, out); },
+      [&](const FrameParts& parts, const PlanPlace& at) {
+        add_geometry(parts.geometry, config, at, seen, out);
+        add_classes(parts.scene, config, scenes[static_cast<std::size_t>(at.scene)].draw.look, at, out);
+      },
       [&](const Token& t, const PlanPlace& at) {
         if (!info_of(t.kind).depth) return;
         const int pixels = t.span.xr - t.span.xl;

@@ -15,6 +15,9 @@
 
 namespace kage::plan {
 
+/// CLASS_BITS that a plan may have.
+inline constexpr std::array kClassSteps{4, 8, 11};
+
 /// A greatest number and where it was found.
 struct Most {
   double value = 0;
@@ -49,11 +52,11 @@ struct ShareGroup {
 /// Demands of one way to draw shadows.
 struct WayDemand {
   int dsf_bits = 0;
-  Most volumes;                    ///< of a light sample
-  Most depth_span;                 ///< pixels along which depth goes on by steps
-  Most color_span;                 ///< pixels along which colour does
-  Most classes;                    ///< in use in a frame, of light tables
-  std::vector<ShareGroup> groups;  ///< what shadows take, without repetition
+  Most volumes;                                       ///< of a light sample
+  Most depth_span;                                    ///< pixels along which depth goes on by steps
+  Most color_span;                                    ///< pixels along which colour does
+  std::array<Most, kClassSteps.size()> class_errors;  ///< LightDemand::share_error by a table of each step
+  std::vector<ShareGroup> groups;                     ///< what shadows take, without repetition
 };
 
 /// Expansion units that hold all polyhedra that can go to one.

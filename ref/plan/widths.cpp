@@ -156,30 +156,46 @@ class Maker {
         : possible ? "one volume for each light sample here; several casters, or one that is not convex, may have "
                      "more, and 0 cannot represent the scene then"
                    : "one volume for each light sample");
-    const bool counts = needs.samples > 1 || needs.lights > 1;
+    const bool table = needs.lights > 1 || needs.share_error > limits_.color;
+    const bool counts = needs.samples > 1 || table;
     const int count = counts ? bits_for(needs.samples) : 0;
     set(&Config::count_bits, count,
-        counts ? fmt::format("{} for a light, {}{}", counted(needs.samples, "sample"), counted(needs.lights, "light"),
-                             one_less_text(count, info_of(&Config::count_bits)))
-               : "one light, a point or at infinity");
+        !counts ? "one light, a point or at infinity, and no table"
+        : needs.samples == 1 && needs.lights == 1
+            ? "one light, a point or at infinity; a table needs a counter"
+            : fmt::format("{} for a light, {}{}", counted(needs.samples, "sample"), counted(needs.lights, "light"),
+                          one_less_text(count, info_of(&Config::count_bits))));
     set(&Config::lights, needs.lights,
         needs.lights == 1
             ? "one light"
             : fmt::format("{} lights{}", needs.lights, one_less_text(needs.lights, info_of(&Config::lights))));
-    if (needs.lights > 1) {
-      const int least = std::max(2, bits_for(way_.classes.value));
-      const int taken = class_step(least);
-      set(&Config::class_bits, taken,
-          fmt::format("{} in {}; {}{}",
-                      counted_most(way_.classes, "class of normals and lights", "classes of normals and lights"),
-                      at(way_.classes),
-                      least == 2 ? std::string("1 cannot represent the scene")
-                                 : fmt::format("{} would put classes together", least - 1),
-                      step_text(least, taken)));
-    } else {
-      set(&Config::class_bits, 1, "one light, so no table");
-    }
+    if (table)
+      classes();
+    else
+      set(&Config::class_bits, 1,
+          fmt::format("with one share for all shadows they are {} off, root mean square", steps(needs.share_error)));
   }
+
+  /// The first step whose classes keep the limit, or the last.
+  void classes() {
+    const Needs& needs = features_.needs;
+    std::size_t step = 0;
+    while (step + 1 < kClassSteps.size() && way_.class_errors[step].value > limits_.color) ++step;
+    const Most& error = way_.class_errors[step];
+    const std::string before = step > 0 ? fmt::format("; {} leave {}, more than --max-color {}", kClassSteps[step - 1],
+                                                      steps(way_.class_errors[step - 1].value), limits_.color)
+                               : needs.lights > 1
+                                   ? std::string("; 1 cannot represent the scene")
+                                   : fmt::format("; one share for all leaves {}, more than --max-color {}",
+                                                 steps(needs.share_error), limits_.color);
+    set(&Config::class_bits, kClassSteps[step],
+        fmt::format("{} classes leave shadows {} off, root mean square, in {}{}", (1 << kClassSteps[step]) - 1,
+                    steps(error.value), at(error), before));
+  }
+
+  static std::string steps(double error) { return steps_text(fmt::format("{:.2g}", error)); }
+
+  [[nodiscard]] bool smooth() const { return features_.needs.smooth || features_.needs.color_spread > limits_.color; }
 
   /// The least SHADE_FRAC with which a drawn colour off by `drawn` is shown within the limit; none: past the greatest.
   [[nodiscard]] int shade_frac(double drawn) const {
@@ -193,9 +209,7 @@ class Maker {
     const Needs& needs = features_.needs;
     const ParamInfo& c = info_of(&Config::color_frac);
     const ParamInfo& s = info_of(&Config::shade_frac);
-    const auto feasible = [&] {
-      return shade_frac(needs.smooth ? color_error(way_.color_span.value, c.max) : 0) <= s.max;
-    };
+    const auto feasible = [&] { return shade_frac(smooth() ? color_error(way_.color_span.value, c.max) : 0) <= s.max; };
     if (!feasible()) {
       const int asked = out_.color_limit;
       while (!feasible() && out_.color_limit < 255) ++out_.color_limit;
@@ -207,14 +221,20 @@ class Maker {
     }
     set(&Config::channels, needs.color ? 3 : 1,
         needs.color ? "some colour is not grey; 1 cannot represent the scene" : "all colours are grey");
-    if (!needs.smooth) {
-      set(&Config::smooth, 0, "each polygon has one colour");
+    if (!smooth()) {
+      set(&Config::smooth, 0,
+          needs.color_spread > 0
+              ? fmt::format("each polygon has one colour, by which light is {} off", steps(needs.color_spread))
+              : "each polygon has one colour");
       set(&Config::color_frac, 0, "no slopes of colour");
     } else {
-      set(&Config::smooth, 1, "colour varies within a face; 0 cannot represent the scene");
+      set(&Config::smooth, 1,
+          needs.smooth ? "colour varies within a face; 0 cannot represent the scene"
+                       : fmt::format("light varies within a face: with 0 it is {} off, more than --max-color {}",
+                                     steps(needs.color_spread), limits_.color));
       color_frac(c, s);
     }
-    const double drawn = needs.smooth ? color_error(way_.color_span.value, out_.config.color_frac) : 0;
+    const double drawn = smooth() ? color_error(way_.color_span.value, out_.config.color_frac) : 0;
     if (!needs.shadows) {
       set(&Config::shade_frac, s.min, "no shadows");
       return;
@@ -308,9 +328,8 @@ int position_step(int least) {
 int four_step(int least) { return (least + 3) / 4 * 4; }
 
 int class_step(int least) {
-  for (const int step : {4, 8})
-    if (step >= least) return step;
-  return least;  // each bit more doubles the table's RAM
+  const auto step = std::find_if(kClassSteps.begin(), kClassSteps.end(), [&](int s) { return s >= least; });
+  return step != kClassSteps.end() ? *step : least;
 }
 
 int width_step(int least) {

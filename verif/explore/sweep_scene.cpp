@@ -125,15 +125,15 @@ void ask_lights(const RayFrame& f, const glm::dvec3& at, const glm::dvec3& direc
   const double eye = -glm::dot(normal, direction);
   for (std::size_t l = 0; l < f.lights.size(); ++l) {
     int count = 0;
+    bool lit = false;
     for (const LightPoint& point : f.lights[l]) {
       const glm::dvec3 to_light = point.directional ? -point.direction : point.position - at;
-      if (!(glm::dot(normal, to_light) * eye > 0)) {
-        count = -1;
-        break;
-      }
-      if (f.behind.blocked(at, to_light, point.directional ? INFINITY : 1, out.face)) ++count;
+      const bool before = glm::dot(normal, to_light) * eye > 0;
+      lit = lit || before;
+      // From those behind it the face keeps itself.
+      if (!before || f.behind.blocked(at, to_light, point.directional ? INFINITY : 1, out.face)) ++count;
     }
-    out.counts[l] = count;
+    if (lit) out.counts[l] = count;
   }
 }
 
@@ -175,7 +175,6 @@ struct SweepScene::Data {
   DrawOptions draw;
   std::function<void()> step;
   plan::Features features;
-  bool table = false;
   Kept<SceneFrame> frames;
   Kept<std::string> identity;
   Kept<ScreenTruth> truths;
@@ -196,7 +195,6 @@ SweepScene::SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& dr
   planned.draw.height = base.height;
   planned.draw.look.samples = kMaxSamples;
   d.features = plan::features_of(std::span(&planned, 1));
-  d.table = derived::has_table(base.config);
 }
 
 SweepScene::~SweepScene() = default;
@@ -236,7 +234,7 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   out.config = plan::finest(features, features.needs.shadows ? 1 : 0, 0);
   out.config.z_bits = kGreatest.z_bits;
   out.config.channels = kGreatest.channels;  // a grey scene has a background of another colour
-  if (data_->table && out.config.dsf_bits > 0) {
+  if (out.config.dsf_bits > 0) {
     out.config.count_bits = kGreatest.count_bits;
     out.config.class_bits = kGreatest.class_bits;
   }
@@ -269,15 +267,14 @@ SweepPoint SweepScene::alone(const SweepPoint& point, ErrorSource source) const 
       if (c.dsf_bits == 0) break;
       c.dsf_bits = of.dsf_bits;
       c.fsf = of.fsf;
-      c.count_bits = std::min(c.count_bits, of.count_bits);
+      c.count_bits =
+          std::max(of.count_bits, 1);  // a table needs a counter, and one share for all is no matter of samples
       c.lights = std::min(c.lights, of.lights);
-      out.look.samples = point.look.samples;
+      out.look.samples = samples_of(point);
       out.look.seed = point.look.seed;
       break;
     case ErrorSource::classes:
       if (c.dsf_bits == 0) break;
-      // A row may have a table where the finest picture has none: then what the table does is an error by classes.
-      if (derived::has_table(of)) c.count_bits = kGreatest.count_bits;
       c.class_bits = of.class_bits;
       out.look.classes = point.look.classes;
       break;

@@ -33,7 +33,7 @@ struct RayPixel {
   int y = 0;
   std::uint32_t face = kNothing;  ///< opaque
   /// By light, how many of its samples are kept from the pixel; -1: it is not to be compared. The reason is that
-  /// nothing was asked, there is no such light, or some of its samples are on the other side of the face than the eye.
+  /// nothing was asked, there is no such light, or all of its samples are on the other side of the face than the eye.
   std::array<int, 8> counts{-1, -1, -1, -1, -1, -1, -1, -1};
   /// Translucent faces before it, back to front. None if two are at one distance, where either order is right.
   std::vector<std::uint32_t> layers;
@@ -41,9 +41,9 @@ struct RayPixel {
 
 class SweepScene {
  public:
-  /// `draw` has the number of frames, at least 1, the threads that work on one, and the scene's name. `base` says
-  /// whether lights are looked up in a table. `step` is called now and then, by several threads, and what it throws
-  /// goes through.
+  /// `draw` has the number of frames, at least 1, the threads that work on one, and the scene's name. `base` has the
+  /// size by which its needs are told. `step` is called now and then, by several threads, and what it throws goes
+  /// through.
   SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& draw, const SweepPoint& base,
              std::function<void()> step);
   ~SweepScene();

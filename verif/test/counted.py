@@ -20,10 +20,11 @@ def lines(name, *arguments):
     ).stdout.splitlines()
 
 
-def rows(page, name, *arguments):
-    """The page's table is the benchmark's, line by line and with no other; of some scenes, where they are named."""
+def rows(page, name, *arguments, part=()):
+    """The page's table is the benchmark's, line by line and with no other; of some scenes, where they are named. `part`: its arguments, where
+    it prints a table for each."""
     text = (SOURCE / page).read_text().splitlines()
-    printed = [line.rstrip() for line in lines(name, *arguments)]
+    printed = [line.rstrip() for line in lines(name, *part, *arguments)]
     if len(printed) < 3:
         wrong.append(f"bench_{name} prints no table")
         return
@@ -58,7 +59,8 @@ def numbers(page, begin, name, scenes):
 
 
 rows("docs/stream.md", "polygon_level")
-rows("docs/lights.md", "lights")
+for which in ("light", "built-in", "steps"):
+    rows("docs/lights.md", "lights", part=(which,))
 rows("docs/shadows.md", "phases", "courtyard", "knot", "fifteen", "glass")
 numbers("docs/rtl.md", "It keeps up.", "front_end", ["courtyard"])
 for line in wrong:

@@ -49,6 +49,17 @@ struct Needs {
   bool translucency = false;     ///< something is translucent
   int lights = 1;                ///< that cast shadows
   int samples = 1;               ///< of a light, at most
+  /// How far colours in shadow are off, in steps of 255, where all shadows take one share (LightDemand).
+  double share_error = 0;
+  /// Likewise within a polygon that has one colour.
+  double color_spread = 0;
+
+  /// Whether light is more than a step off without a table of what shadows take.
+  /// @return so it is
+  [[nodiscard]] bool light_table() const { return shadows && share_error > 1; }
+  /// Whether it is without colour that varies within a polygon.
+  /// @return so it is
+  [[nodiscard]] bool near_light() const { return color_spread > 1; }
 };
 
 /// Compares a configuration with what is asked of it.
@@ -56,6 +67,12 @@ struct Needs {
 /// @param needs what is asked
 /// @return what it lacks, one word or phrase each ("SMOOTH", "MAX_WIDTH >= 1280"), empty if nothing
 std::vector<std::string> lacks(const Config& config, const Needs& needs);
+
+/// Compares a configuration with what light asks of it, without which a picture is drawn with less accurate light.
+/// @param config a legal configuration
+/// @param needs what is asked
+/// @return what it approximates, one phrase each ("what shadows take (CLASS_BITS)"), empty if nothing
+std::vector<std::string> approximates(const Config& config, const Needs& needs);
 
 /// Chooses among the named configurations. Throws Error if none has all; it names the one that lacks the fewest things,
 /// and those.

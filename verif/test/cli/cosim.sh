@@ -41,12 +41,16 @@ expect 0 "$kage" cosim knot --size 3840x32 --frames 1 --idle 20 --backpressure 2
 json wide.json 'j["config"]["MAX_WIDTH"]==3840 and j["pixels_compared"]==3840*32'
 expect 0 "$kage" cosim courtyard --config systolic64 --size 64x48 --frames 2 --out systolic
 expect 0 "$kage" cosim inside --config systolic64 --size 64x48 --frames 2 --out systolic
-# Counters with one sample of one light: default's pixels, but for SHADE's rounding. A table says what a face really loses.
-expect 0 "$kage" render courtyard --config default --size 64x48 --frames 1 --out one
 for name in soft lights; do
   expect 0 "$kage" cosim courtyard --config $name --size 64x48 --frames 1 --out $name --idle 20 --backpressure 20
 done
-expect 0 "$kage" diff soft/courtyard_0000.png one/courtyard_0000.png --lsb 1
+# Counters with one sample of one light: default's pixels, but for SHADE's rounding. A table says what each face loses.
+printf '{COUNT_BITS: 8, SHADE_FRAC: 16}\n' >counters.yaml
+for name in default counters.yaml; do
+  expect 0 "$kage" render courtyard --config $name --size 64x48 --frames 1 --out "one-$name"
+done
+expect 0 "$kage" diff one-default/courtyard_0000.png one-counters.yaml/courtyard_0000.png --lsb 1
+expect 1 "$kage" diff one-default/courtyard_0000.png soft/courtyard_0000.png --lsb 1
 # Wider than any of them, by a file of one's own (the line that docs/stream.md shows).
 printf '{X_BITS: 13, Z_FRAC: 12, LANES: 8, MAX_WIDTH: 4096}\n' >wide.yaml
 grep -qF "$(cat wide.yaml)" "$source/docs/stream.md" || fail "docs/stream.md shows another line"
@@ -63,7 +67,7 @@ trouble "no such fault (there are blend_rounding, " "$kage" cosim courtyard --si
 printf 'LANES: 3\n' >three.yaml
 trouble three.yaml "$kage" cosim courtyard --config three.yaml --out none
 # No pixel compared is no verdict.
-expect 0 "$kage" stream edges --size 64x48 --frames 1 --out edges.kage
+expect 0 "$kage" stream edges --config default --size 64x48 --frames 1 --out edges.kage
 printf 'MAX_WIDTH: 32\n' >narrow.yaml
 trouble SIZE "$kage" cosim edges.kage --config narrow.yaml --out narrow
 [ ! -e none ] || fail "a refused run leaves a folder"

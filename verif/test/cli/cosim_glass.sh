@@ -20,7 +20,7 @@ for i in "${!arrangements[@]}"; do
 done
 expect 0 "$kage" cosim glass --size 60x45 --frames 1 --config smooth.yaml --out smooth
 expect 0 "$kage" cosim glass --size 60x45 --frames 1 --out chosen --json chosen.json
-json chosen.json 'j["same"] is True and j["config"]["TRANSLUCENCY"]==1 and j["config"]["SMOOTH"]==0'
+json chosen.json 'j["same"] is True and j["config"]["TRANSLUCENCY"]==1 and j["config"]["CLASS_BITS"]==4'
 
 # A thousand layers.
 {

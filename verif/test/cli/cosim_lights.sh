@@ -8,7 +8,7 @@ for scene in penumbra three-lights; do
   grep -q '^same: 2 frames' stdout || fail "$scene: $(cat stdout)"
   json "$scene.json" 'j["same"] is True and j["spans"] > 10000'
 done
-json penumbra.json 'j["config"]["COUNT_BITS"] == 8 and j["config"]["CLASS_BITS"] == 1'
+json penumbra.json 'j["config"]["COUNT_BITS"] == 8 and j["config"]["CLASS_BITS"] == 4'
 json three-lights.json 'j["config"]["LIGHTS"] >= 3 and j["config"]["CLASS_BITS"] > 1'
 
 # Translucent spans over soft shadows: the line leaves and comes back.

@@ -19,7 +19,7 @@ json s.json 'j["same"] and j["config"]["ACTIVE"] == 48'
 grep -q '^courtyard: ACTIVE: ' stdout && fail "the configuration has a front end: $(cat stdout)"
 # A configuration without gets one, which is told; it is the model that kage model builds with the same option.
 expect 0 "$kage" cosim courtyard --front-end rtl --size 32x24 --frames 1 --out given --json g.json
-grep -qx 'courtyard: ACTIVE: 512 polygons at once, since default has no front end' stdout || fail "ACTIVE is not told: $(cat stdout)"
+grep -qx 'courtyard: ACTIVE: 512 polygons at once, since meshes has no front end' stdout || fail "ACTIVE is not told: $(cat stdout)"
 json g.json 'j["same"] and j["config"]["ACTIVE"] == 512 and j["options"]["front_end"] == "rtl"'
 expect 0 "$kage" model default --front-end rtl --json m.json
 grep -q '^default with ACTIVE 512: .* (was there)$' stdout || fail "it is another model: $(cat stdout)"

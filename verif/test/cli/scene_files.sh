@@ -136,7 +136,7 @@ done
 # kage info of a scene.
 expect 0 "$kage" info courtyard --json j.json
 json j.json 'j["triangles"]>100 and j["components"]["closed"]==j["components"]["all"]==j["components"]["convex"] and j["cameras"]==1 and j["lights"]==["directional"]'
-json j.json 'j["configuration"]=="default" and "full" in j["configurations"] and "tiny" in j["lacks"] and j["materials"]["translucent"]==0 and j["notes"]==[]'
+json j.json 'j["configuration"]=="meshes" and "full" in j["configurations"] and "tiny" in j["lacks"] and j["materials"]["translucent"]==0 and j["notes"]==[]'
 expect 0 "$kage" info used.gltf --json j.json
 json j.json 'j["triangles"]==2 and j["objects"]==1 and j["components"]["closed"]==0 and "one face only" in j["components"]["first_not_closed"]["why"]'
 json j.json 'j["lights"]==[] and j["materials"]=={"all": 1, "translucent": 0, "unlit": 0, "single_sided": 1} and j["animations"]==0'

@@ -33,7 +33,8 @@ has() {
 
 # Between them the scenes have every kind of token. No line of inside is whole within the one volume that its own configuration
 # counts in, so it has IF only by parity.
-has courtyard SHADE OP SP EV RESOLVE EOL END
+has courtyard SHADE OP SP EV RESOLVE EOL END --config default
+has courtyard TABLE
 has inside NC
 has inside NC IF --config default
 has cutaway NC IF

@@ -109,7 +109,7 @@ trouble empty.obj "$kage" render empty.obj --frames 1
 
 # A bad frame after good ones: no picture of the good ones stays, pictures of an earlier run do, and so do other files.
 python3 -c "d=bytearray(open('c.kage','rb').read()); d[-100]^=1; open('late.kage','wb').write(d)"
-trouble "late.kage: section 1: checksum is wrong" "$kage" render late.kage --out made/here
+trouble "checksum" "$kage" render late.kage --out made/here
 [ ! -e made ] || fail "a failed render leaves $(find made)"
 mkdir kept && echo earlier >kept/late_0000.png && echo other >kept/notes.txt
 trouble late.kage "$kage" render late.kage --out kept --json kept/r.json

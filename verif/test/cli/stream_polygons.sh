@@ -52,7 +52,7 @@ expect 2 "$kage" stream courtyard --level edges --out x.kage
 # A copy for another core that would refuse it.
 active=$("$kage" info polygons.kage --json - | python3 -c 'import json, sys; print(json.load(sys.stdin)["config"]["ACTIVE"])')
 for row in "ACTIVE: 1,ACTIVE_FULL" "ACTIVE: 0,HEADER" "ACTIVE: $active,"; do
-  printf 'LANES: 2\n%s\n' "${row%,*}" >other.yaml
+  printf 'LANES: 2\nDSF_BITS: 4\nCOUNT_BITS: 1\nCLASS_BITS: 4\n%s\n' "${row%,*}" >other.yaml
   cause=${row#*,}
   if [ -z "$cause" ]; then
     expect 0 "$kage" stream polygons.kage --config other.yaml --out other.kage

@@ -31,7 +31,7 @@ told 'EV \[.*\), pixel [0-9]+, field dsf' flag
 
 expect 2 ./pixel_check nowhere.kage
 grep -q 'nowhere.kage' stderr || fail "does not name the file: $(cat stderr)"
-expect 0 "$kage" stream glass --size 64x48 --frames 1 --out glass.kage
+expect 0 "$kage" stream glass --size 64x48 --frames 1 --config glass --out glass.kage
 expect 2 ./pixel_check glass.kage
 grep -q 'TRANSLUCENCY is not 0' stderr || fail "does not say why: $(cat stderr)"
 # Nothing but the interface can be seen of the library.

@@ -50,16 +50,16 @@ def told(b):
     spans = [e for e in tokens if e["token"].split()[1] in ("OP", "SP", "EV")]
     check(spans and all(e["from"].startswith("from ") for e in spans), f"front_end: no part of the scene: {spans}")
     ends = {e["token"].split()[1].rstrip(","): e for e in tokens[-2:]}
-    check(ends.keys() == {"EV", "RESOLVE"}, f"front_end: the last tokens are {tokens[-2:]}")
-    if ends.keys() != {"EV", "RESOLVE"}:
+    check(ends.keys() == {"ES", "RESOLVE"}, f"front_end: the last tokens are {tokens[-2:]}")
+    if ends.keys() != {"ES", "RESOLVE"}:
         return
     check(
-        ends["EV"]["token"].split()[0] == ends["RESOLVE"]["token"].split()[0], f"front_end: made of two tokens: {ends}"
+        ends["ES"]["token"].split()[0] == ends["RESOLVE"]["token"].split()[0], f"front_end: made of two tokens: {ends}"
     )
     # One token of the stream stands for both, and each has what the RTL did at it.
-    check(ends["EV"]["rtl"] == ["state of a pixel"], f"front_end: at EV the RTL did {ends['EV']['rtl']}")
+    check(ends["ES"]["rtl"] == ["state of a pixel"], f"front_end: at ES the RTL did {ends['EV']['rtl']}")
     rest = ends["RESOLVE"]["rtl"] + entries[-1]["rtl"]
-    check(rest == ["pixel that leaves the line", "pixel of video"], f"front_end: behind EV the RTL did {rest}")
+    check(rest == ["pixel that leaves the line", "pixel of video"], f"front_end: behind ES the RTL did {rest}")
 
 
 def from_tokens(b):
