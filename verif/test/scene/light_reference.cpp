@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
 #include <functional>
 #include <stdexcept>
 
@@ -249,6 +250,96 @@ TEST_CASE("a sun's shadow is the reference's where its share comes from a table"
   CHECK(e.worst < 12);  // at the ball's terminator, where light changes within a face; on the floor 1
   CHECK(e.lit_worst < 12);
   CHECK(e.lit_mean() < 1);  // colours of corners are rounded, those of pixels too, and a ball's faces are flat
+}
+
+// A window beside a table from wholly below its top to wholly above it. Points behind the top are in its own shadow:
+// each pixel counts them, besides those of the others that rays find hidden.
+TEST_CASE("a table shows the shadows of a window at every height, and nothing pops") {
+  constexpr int kAcross = 80;
+  constexpr int kDown = 60;
+  std::uint64_t wrong = 0;
+  std::uint64_t compared = 0;
+  std::uint64_t shadowed = 0;
+  double worst_mean = 0;
+  double worst_change = 0;
+  for (const int samples : {4, 15, 64}) {
+    double before = -1;
+    for (int step = 0; step <= 40; ++step) {
+      if (samples == 64 && step % 4 != 0) continue;
+      const double height = -1 + step * 0.075;
+      CAPTURE(samples, height);
+      const SceneFrame f = frame_of(table_and_window(height));
+      Look look;
+      look.samples = samples;
+      Config c;
+      c.class_bits = 4;
+      c.smooth = 1;
+      c.color_frac = 8;
+      c = config_for_lights(f, samples, c);
+      c.shade_frac = 16;
+      const FrameGeometry g = make_geometry(f, c, kAcross, kDown, {.look = look});
+      const std::vector<std::uint32_t> picture = draw(g, c);
+      const auto counts = shadow_counts(g, c);
+      const auto seen = seen_polygons(g, c);
+      const auto points = sampled_points(f, look);
+      const RayScene rays(f);
+      const LightReference reference(f, rays, points, kAcross, kDown);
+      double sum = 0;
+      std::uint64_t pixels = 0;
+      for (int y = 0; y < kDown; ++y)
+        for (int x = 0; x < kAcross; ++x) {
+          const std::size_t i = static_cast<std::size_t>(y) * kAcross + static_cast<std::size_t>(x);
+          if (seen[i] == ~0U || !g.polygons[seen[i]].lit) continue;
+          const ReferencePixel p = reference.pixel(x, y);
+          if (p.face != g.polygons[seen[i]].source) continue;  // a tie
+          const Triangle& t = f.triangles[f.polygons[p.face].triangle];
+          const glm::dvec3 a = f.vertices[t.vertex[0]];
+          const glm::dvec3 n = glm::cross(f.vertices[t.vertex[1]] - a, f.vertices[t.vertex[2]] - a);
+          const double eye = glm::dot(n, f.camera.eye - a);
+          // A point in the face's plane, to a millionth of the scene, gives it nothing, and its shadow may fall on it
+          // or not: corners are snapped.
+          const auto behind = [&](double more) {
+            return std::count_if(points[0].begin(), points[0].end(), [&](const LightPoint& at) {
+              return glm::dot(n, at.position - a) * (eye > 0 ? 1 : -1) < more * glm::length(n);
+            });
+          };
+          const auto hidden = std::count(p.hidden.begin(), p.hidden.end(), true);
+          const auto count = static_cast<std::ptrdiff_t>(counts[i][0]);
+          const bool right = count >= hidden + behind(-2e-6) && count <= hidden + behind(2e-6);
+          ++compared;
+          shadowed += p.shadowed ? 1U : 0U;
+          if (!right && !reference.pixel_with_ties(x, y, 1.0 / 128).tie) ++wrong;
+          if (t.object > 0 || !p.shadowed) continue;
+          sum += std::abs((picture[i] & 255U) - p.color.x);
+          ++pixels;
+        }
+      if (pixels > 0) worst_mean = std::max(worst_mean, sum / static_cast<double>(pixels));
+      // Nothing pops: from height to height the mean of the picture moves as that of the truth does.
+      double shown = 0;
+      double truth = 0;
+      for (int y = 0; y < kDown; y += 3)
+        for (int x = 0; x < kAcross; x += 3) {
+          const std::size_t i = static_cast<std::size_t>(y) * kAcross + static_cast<std::size_t>(x);
+          const ReferencePixel p = reference.pixel(x, y);
+          if (p.face == kNothing || seen[i] == ~0U) continue;
+          shown += picture[i] & 255U;
+          truth += p.color.x;
+        }
+      const double off = (shown - truth) / (kAcross * kDown / 9.0);
+      if (before > -1) worst_change = std::max(worst_change, std::abs(off - before));
+      before = off;
+    }
+  }
+  std::printf(
+      "table and window: %llu of %llu pixels have another count, %llu in shadow; mean error %.2f at most, "
+      "%.2f more or less from height to height\n",
+      static_cast<unsigned long long>(wrong), static_cast<unsigned long long>(compared),
+      static_cast<unsigned long long>(shadowed), worst_mean, worst_change);
+  CHECK(wrong == 0);
+  CHECK(worst_mean < 4);  // 15 classes, and no more than 255 before a face's own shadow
+  CHECK(worst_change < 1);
+  CHECK(compared > 100000);
+  CHECK(shadowed > 30000);
 }
 
 TEST_CASE("the reference tells light that is wrong") {
