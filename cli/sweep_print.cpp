@@ -31,9 +31,8 @@ std::string legend(bool placed) {
   return fmt::format(
       "# face, shadow: pixels with another face than the oracle's, another number of shadowed samples; gross: by more "
       "than any stated error gives\n"
-      "# z LSB/bound: the depth that is furthest off, in units of its last bit, and the bound; PSNR (dB), FLIP: "
-      "colours "
-      "against the finest picture\n"
+      "# z LSB/bound: the depth that is furthest off, in units of its last bit, and the bound\n"
+      "# light (dB): colours against each light worked out at each pixel; PSNR (dB), FLIP: against the finest picture\n"
       "# ns/px: of the golden core; clk/px: clocks of the RTL; sim fps: frames a second of its model; words: of the "
       "stream, a frame; b/px: bits a pixel\n"
       "{}# docs/sweep.md says how each is measured; --json and --csv have all figures\n",
@@ -42,20 +41,23 @@ std::string legend(bool placed) {
 
 std::string line_of(const Json& row, bool placed) {
   const Json& a = row.at("accuracy");
+  const Json& light = a.at("light");
   const Json& s = row.at("speed");
   const Json& area = row.at("area");
   const std::string name = fmt::format("{} {}", row.at("axis").get<std::string>(), row.at("value").get<std::string>());
   const std::string clock =
       placed ? fmt::format(" {:>6} {:>7}", number(area.at("fmax_mhz"), 1), number(s.at("frames_per_second"), 1)) : "";
-  return fmt::format("{}{:<30} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
-                     row.at("pareto").get<bool>() ? "*" : " ", name, json_text(a.at("pixels")),
-                     json_text(a.at("visible_wrong")), json_text(a.at("shadow_wrong")), json_text(a.at("gross_wrong")),
-                     number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 2),
-                     a.at("psnr").is_null() ? "equal" : number(a.at("psnr"), 1), number(a.at("flip"), 4),
-                     number(s.at("golden_ns_per_pixel"), 1), number(s.at("rtl_cycles_per_pixel"), 3),
-                     s.at("rtl_cycles_from") == "cosim" ? " " : "~", number(s.at("cosim_frames_per_second"), 2),
-                     number(s.at("words_per_frame"), 0), number(area.at("luts"), 0),
-                     area.at("counted").get<bool>() ? " " : "~", json_text(area.at("bits_per_pixel")), clock);
+  return fmt::format(
+      "{}{:<30} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>6} {:>7} {:>7}{} {:>7} {:>8} {:>6}{} {:>4}{}\n",
+      row.at("pareto").get<bool>() ? "*" : " ", name, json_text(a.at("pixels")), json_text(a.at("visible_wrong")),
+      json_text(a.at("shadow_wrong")), json_text(a.at("gross_wrong")),
+      number(a.at("z_error_max_lsb"), 2) + "/" + number(a.at("z_error_bound_lsb"), 2),
+      light.is_null() ? "-" : number(light.at("drawn").at("psnr"), 1),
+      a.at("psnr").is_null() ? "equal" : number(a.at("psnr"), 1), number(a.at("flip"), 4),
+      number(s.at("golden_ns_per_pixel"), 1), number(s.at("rtl_cycles_per_pixel"), 3),
+      s.at("rtl_cycles_from") == "cosim" ? " " : "~", number(s.at("cosim_frames_per_second"), 2),
+      number(s.at("words_per_frame"), 0), number(area.at("luts"), 0), area.at("counted").get<bool>() ? " " : "~",
+      json_text(area.at("bits_per_pixel")), clock);
 }
 
 using Column = std::function<void(const std::string& name, const Json& value)>;
@@ -85,9 +87,10 @@ std::string sweep_table(const std::vector<Json>& rows) {
       scene = row.at("scene").get<std::string>();
       text += fmt::format("# {}: {}; * no other row of its size beats it; ~ foretold or estimated\n", scene,
                           counted(row.at("frames").get<int>(), "frame"));
-      text += fmt::format("{:<31} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
-                          "# axis value", "pixels", "face", "shadow", "gross", "z LSB/bound", "PSNR", "FLIP", "ns/px",
-                          "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
+      text += fmt::format(
+          "{:<31} {:>8} {:>7} {:>7} {:>5} {:>13} {:>6} {:>6} {:>6} {:>7} {:>7}  {:>7} {:>8} {:>6}  {:>4}{}\n",
+          "# axis value", "pixels", "face", "shadow", "gross", "z LSB/bound", "light", "PSNR", "FLIP", "ns/px",
+          "clk/px", "sim fps", "words", "LUTs", "b/px", placed ? "    MHz     fps" : "");
     }
     text += line_of(row, placed);
   }

@@ -226,6 +226,7 @@ class Planner {
 
   void give_reasons(const Way& way, const PlanCandidate& taken) {
     for (const ParamInfo& p : kParams) {
+      if (out_.config.units == 0 && of_units(p)) continue;
       const auto& given = way.widths.reasons;
       const auto r =
           std::find_if(given.begin(), given.end(), [&](const PlanReason& g) { return g.parameter == p.name; });
@@ -242,8 +243,12 @@ class Planner {
     if (p.member == &Config::lanes && taken.config.arrangement == 0) return "systolic: without effect";
     if (p.member == &Config::lanes || p.member == &Config::beat_words) return pace_reason(p, way, taken);
     if (p.member == &Config::active) return "spans come from the host; --front-end rtl plans a front end";
-    if (p.member == &Config::classic) return "the paper's segments are never asked for";
-    return "no units";
+    return "the paper's segments are never asked for";
+  }
+
+  static bool of_units(const ParamInfo& p) {
+    return p.member == &Config::face_bits || p.member == &Config::dx_bits || p.member == &Config::seg_bits ||
+           p.member == &Config::order_bits || p.member == &Config::classic;
   }
 
   /// Why as many lanes, or words in a beat: what the half of them would take.

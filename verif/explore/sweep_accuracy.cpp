@@ -122,7 +122,37 @@ void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const Drawn
   }
 }
 
+LightErrors light_errors(const std::vector<LightPixel>& truth, const DrawnFrame& drawn) {
+  LightErrors e;
+  for (const LightPixel& p : truth) {
+    const std::size_t i =
+        static_cast<std::size_t>(p.y) * static_cast<std::size_t>(drawn.width) + static_cast<std::size_t>(p.x);
+    if (drawn.face[i] != p.face) continue;
+    ++e.pixels;
+    e.shadowed += p.shadowed ? 1 : 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double off = std::abs(drawn.color[i][c] - p.color[static_cast<int>(c)]);
+      (p.shadowed ? e.shadow_sum : e.lit_sum) += off;
+      double& worst = p.shadowed ? e.shadow_worst : e.lit_worst;
+      worst = std::max(worst, off);
+      e.squares += off * off;
+    }
+  }
+  return e;
+}
+
 }  // namespace
+
+LightErrors& LightErrors::operator+=(const LightErrors& o) {
+  pixels += o.pixels;
+  shadowed += o.shadowed;
+  shadow_sum += o.shadow_sum;
+  shadow_worst = std::max(shadow_worst, o.shadow_worst);
+  lit_sum += o.lit_sum;
+  lit_worst = std::max(lit_worst, o.lit_worst);
+  squares += o.squares;
+  return *this;
+}
 
 Image image_of(const DrawnFrame& drawn) {
   Image image(drawn.width, drawn.height, 3);
@@ -142,6 +172,8 @@ PointAccuracy& PointAccuracy::operator+=(const PointAccuracy& o) {
   ray_layer_pixels += o.ray_layer_pixels;
   ray_layers_wrong += o.ray_layers_wrong;
   all += o.all;
+  light += o.light;
+  finest_light += o.finest_light;
   steps += o.steps;
   flip += o.flip;
   return *this;
@@ -167,6 +199,11 @@ PointAccuracy accuracy_of(SweepScene& scene, int frame, const SweepPoint& point,
   ask_rays(scene, frame, point, drawn, *truth, out);
   out.all = sum_of(against_picture(*finest, scene.light_samples(frame, scene.finest(point)), drawn,
                                    scene.light_samples(frame, point)));
+  if (!point.look.cull) {
+    const auto light = scene.light(frame, point);
+    out.light = light_errors(*light, drawn);
+    out.finest_light = light_errors(*light, *finest);
+  }
   out.steps = steps_of(*finest, drawn);
   if (flip) out.flip = flip_metric(image_of(*finest), image_of(drawn)).mean;
   return out;

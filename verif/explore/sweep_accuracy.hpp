@@ -13,6 +13,19 @@
 
 namespace kage::explore {
 
+/// How far light is from the truth, in steps of 255 over all channels: pixels in some shadow, and others.
+struct LightErrors {
+  std::uint64_t pixels = 0;  ///< that show the face that a ray meets
+  std::uint64_t shadowed = 0;
+  double shadow_sum = 0;
+  double shadow_worst = 0;
+  double lit_sum = 0;
+  double lit_worst = 0;
+  double squares = 0;
+
+  LightErrors& operator+=(const LightErrors& o);
+};
+
 /// Errors over all frames of a point.
 struct PointAccuracy {
   PictureError by_truth;         ///< over error_map()
@@ -25,6 +38,8 @@ struct PointAccuracy {
   std::uint64_t ray_layer_pixels = 0;   ///< pixels with two layers or more that picture and rays have
   std::uint64_t ray_layers_wrong = 0;   ///< of these, whose order is another
   PictureError all;                     ///< against the finest picture
+  LightErrors light;                    ///< against SweepScene::light(); no pixels with Look::cull
+  LightErrors finest_light;             ///< the finest picture's, which no width mends
   Steps steps;                          ///< besides those of the finest picture
   double flip = 0;                      ///< sum over the frames of the mean of FLIP; only if asked for
 

@@ -104,7 +104,8 @@ void set_parameter(SweepPoint& p, const ParamInfo& info, const std::string& valu
   p.config.*info.member = n;
   if (info.member == &Config::color_frac && n > 0) p.config.smooth = 1;
   if (info.member == &Config::smooth && n > 0 && p.config.color_frac == 0) p.config.color_frac = 8;
-  if ((info.member == &Config::class_bits || info.member == &Config::lights) && n > 1) need_counts(p);
+  if (info.member == &Config::class_bits && n > 1) p.config.count_bits = std::max(p.config.count_bits, 1);
+  if (info.member == &Config::lights && n > 1) need_counts(p);
   if (info.member == &Config::lights && n > 1) p.config.class_bits = std::max(p.config.class_bits, 8);
   if ((info.member == &Config::count_bits || info.member == &Config::fsf) && n > 0)
     p.config.dsf_bits = std::max(p.config.dsf_bits, 1);

@@ -68,6 +68,16 @@ double wrong_share(const Json& row) {
   return (a.at("visible_wrong").get<double>() + a.at("shadow_wrong").get<double>()) / a.at("pixels").get<double>();
 }
 
+Json light_json(const LightErrors& e) {
+  return {{"pixels", e.pixels},
+          {"shadowed", e.shadowed},
+          {"shadow_mean", mean(e.shadow_sum, 3 * e.shadowed)},
+          {"shadow_worst", e.shadow_worst},
+          {"lit_mean", mean(e.lit_sum, 3 * (e.pixels - e.shadowed))},
+          {"lit_worst", e.lit_worst},
+          {"psnr", optional_json(psnr(e.squares, e.pixels))}};
+}
+
 }  // namespace
 
 Json error_json(const PictureError& e) {
@@ -235,6 +245,8 @@ Json SweepRunner::accuracy(const SweepPoint& point, const PointWords& words) {
                                          {"shadow_share", mean(sum.ray_shadow_share, sum.ray_shadow_pixels)},
                                          {"layer_pixels", sum.ray_layer_pixels},
                                          {"layers_wrong", sum.ray_layers_wrong}};
+  j["light"] = sum.light.pixels == 0 ? Json(nullptr)
+                                     : Json{{"drawn", light_json(sum.light)}, {"finest", light_json(sum.finest_light)}};
   const std::optional<SoftShare> soft = soft_share(scene_->frame(0), point);
   j["steps"] = {{"seen", sum.steps.seen}, {"most", sum.steps.most}};
   j["soft_share"] = soft ? Json{{"rms", soft->rms}, {"worst", soft->worst}} : Json(nullptr);
@@ -342,6 +354,10 @@ std::string group_of(const Json& row) {
                      look.at("height").get<int>());
 }
 
+// Figures nearer than this to each other are equal: an estimate of cells, or a clock for a thousand pixels, tells no
+// more.
+constexpr double kEqualShare = 0.01;
+
 std::vector<bool> pareto(const std::vector<Json>& rows) {
   std::vector<std::array<double, 4>> costs;
   std::vector<std::string> groups;
@@ -359,8 +375,8 @@ std::vector<bool> pareto(const std::vector<Json>& rows) {
       bool as_good = true;
       bool better = false;
       for (std::size_t c = 0; c < costs[i].size(); ++c) {
-        as_good = as_good && costs[k][c] <= costs[i][c];
-        better = better || costs[k][c] < costs[i][c];
+        as_good = as_good && costs[k][c] <= costs[i][c] * (1 + kEqualShare);
+        better = better || costs[k][c] * (1 + kEqualShare) < costs[i][c];
       }
       beaten = as_good && better;
     }

@@ -15,6 +15,7 @@
 #include "cosim/model/sha256.hpp"
 #include "explore/kept.hpp"
 #include "kage/light.hpp"
+#include "oracle/light_reference.hpp"
 #include "oracle/ray_truth.hpp"
 #include "plan/demand.hpp"
 
@@ -90,7 +91,7 @@ struct RayFrame {
         before(only(f, false)),
         width(point.width),
         height(point.height) {
-    for (std::size_t l = 0; l < std::min(f.lights.size(), std::size_t{8}); ++l)
+    for (std::size_t l = 0; l < f.lights.size(); ++l)
       lights.push_back(light_points(f.lights[l], samples_of(point), point.look.seed + l));
   }
 
@@ -123,7 +124,7 @@ glm::dvec3 normal_of(const SceneFrame& f, std::uint32_t face) {
 void ask_lights(const RayFrame& f, const glm::dvec3& at, const glm::dvec3& direction, RayPixel& out) {
   const glm::dvec3 normal = normal_of(f.opaque, out.face);
   const double eye = -glm::dot(normal, direction);
-  for (std::size_t l = 0; l < f.lights.size(); ++l) {
+  for (std::size_t l = 0; l < std::min(f.lights.size(), out.counts.size()); ++l) {
     int count = 0;
     bool lit = false;
     for (const LightPoint& point : f.lights[l]) {
@@ -180,6 +181,7 @@ struct SweepScene::Data {
   Kept<ScreenTruth> truths;
   Kept<DrawnFrame> pictures;
   Kept<std::vector<RayPixel>> rays;
+  Kept<std::vector<LightPixel>> light;
   Kept<PictureError> errors;
 };
 
@@ -317,6 +319,41 @@ std::shared_ptr<const DrawnFrame> SweepScene::finest_picture(int index, const Sw
   });
 }
 
+std::shared_ptr<const std::vector<LightPixel>> SweepScene::light(int index, const SweepPoint& point) {
+  return data_->light.get(fmt::format("{} {}x{}", index, point.width, point.height), [&] {
+    data_->step();
+    SweepPoint finest_samples = point;
+    finest_samples.look.samples = kMaxSamples;
+    finest_samples.look.seed = 1;
+    finest_samples.config.count_bits = kGreatest.count_bits;
+    const RayFrame f(frame(index), finest_samples);
+    const verif::LightReference reference(f.opaque, f.behind, f.lights, f.width, f.height);
+    const double pixels = static_cast<double>(point.width) * point.height;
+    int step = 1;
+    while (pixels * (f.light_tests() + static_cast<double>(f.opaque.triangles.size())) / (step * step) > kMostTests)
+      ++step;
+    std::vector<LightPixel> all;
+    for (int y = step / 2; y < point.height; y += step)
+      for (int x = step / 2; x < point.width; x += step) all.push_back({.x = x, .y = y});
+    Arena arena(data_->draw.threads);
+    arena.for_each(tbb::blocked_range<std::size_t>(0, all.size(), 64), [&](const auto& range) {
+      data_->step();
+      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+        RayPixel before{.layers = {}};
+        const auto [origin, direction] = verif::pixel_ray(f.camera, all[i].x, all[i].y, f.width, f.height);
+        ask_layers(f, origin, direction, INFINITY, before);
+        const verif::ReferencePixel p = reference.pixel(all[i].x, all[i].y);
+        if (!before.layers.empty() || p.face == verif::kNothing) continue;
+        all[i].face = p.face;
+        all[i].color = p.color;
+        all[i].shadowed = p.shadowed;
+      }
+    });
+    std::erase_if(all, [](const LightPixel& p) { return p.face == kNothing; });
+    return all;
+  });
+}
+
 std::shared_ptr<const std::vector<RayPixel>> SweepScene::rays(int index, const SweepPoint& point) {
   const std::vector<int> samples = light_samples(index, point);
   const bool soft = std::any_of(samples.begin(), samples.end(), [](int n) { return n > 1; });
@@ -379,6 +416,7 @@ void SweepScene::forget(int index) {
   data_->truths.forget(begin);
   data_->pictures.forget(begin);
   data_->rays.forget(begin);
+  data_->light.forget(begin);
   data_->errors.forget(begin);
 }
 

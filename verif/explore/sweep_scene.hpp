@@ -39,6 +39,15 @@ struct RayPixel {
   std::vector<std::uint32_t> layers;
 };
 
+/// Light of a pixel, by the model of light and rays (verif/oracle/light_reference.hpp).
+struct LightPixel {
+  int x = 0;
+  int y = 0;
+  std::uint32_t face = kNothing;  ///< opaque, with nothing translucent before it
+  glm::dvec3 color{0, 0, 0};      ///< 0 .. 255 a channel, not rounded
+  bool shadowed = false;          ///< some light that would arrive is kept out
+};
+
 class SweepScene {
  public:
   /// `draw` has the number of frames, at least 1, the threads that work on one, and the scene's name. `base` has the
@@ -75,6 +84,10 @@ class SweepScene {
   /// Rays at pixels that are spread evenly over the picture: all of them, or as many as seconds allow. Lights, with the
   /// samples of the point, are asked at fewer of these pixels where there are many.
   std::shared_ptr<const std::vector<RayPixel>> rays(int index, const SweepPoint& point);
+  /// The truth of light at pixels that are spread evenly over a picture of the point's size, as many as seconds allow.
+  /// It is the same for all looks: each area light is 255 samples, worked out one by one. Background is left out, and
+  /// so are pixels with something translucent before them.
+  std::shared_ptr<const std::vector<LightPixel>> light(int index, const SweepPoint& point);
   /// Errors of the picture of alone(point, source) against the finest one. The map is not kept.
   ErrorMap map_of(int index, const SweepPoint& point, ErrorSource source);
   /// The sums over that, kept.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <csignal>
@@ -100,10 +101,13 @@ std::vector<const Family*> chosen(const std::string& names) {
   for (std::size_t from = 0; from <= names.size();) {
     const std::size_t to = std::min(names.find(',', from), names.size());
     const std::string name = names.substr(from, to - from);
-    const std::size_t before = found.size();
-    for (const auto& f : all_families())
-      if (f->info().name == name || std::to_string(f->info().number) == name) found.push_back(f.get());
-    if (found.size() == before) usage(fmt::format("--family {}: there is no such family (--list has them)", name));
+    bool any = false;
+    for (const auto& f : all_families()) {
+      if (f->info().name != name && std::to_string(f->info().number) != name) continue;
+      any = true;
+      if (std::find(found.begin(), found.end(), f.get()) == found.end()) found.push_back(f.get());
+    }
+    if (!any) usage(fmt::format("--family {}: there is no such family (--list has them)", name));
     from = to + 1;
   }
   return found;

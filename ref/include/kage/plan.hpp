@@ -120,7 +120,7 @@ struct PlanCandidate {
 /// A plan.
 struct Plan {
   Config config;                      ///< what was chosen
-  std::vector<PlanReason> reasons;    ///< of every parameter, in the order of the definition file
+  std::vector<PlanReason> reasons;    ///< in the order of the definition file; without units, none of theirs
   PlanCost cost;                      ///< of `config`
   std::vector<PlanCandidate> others;  ///< of each other way the configuration that would have been taken
   PlanCandidate smallest;             ///< the one that `area` takes: what speed costs more stands against it

@@ -46,7 +46,7 @@ for row, cells, line in zip(rows, sheet, table):
         if value is None: assert cells.get(name, "") == "", name
         elif isinstance(value, str): assert cells[name] == value, name
         else: assert json.loads(cells[name]) == value, name
-    told = line.split()[-13:]
+    told = line.split()[-14:]
     a, s, area = row["accuracy"], row["speed"], row["area"]
     assert line.startswith("*") == row["pareto"], line
     assert told[:4] == [str(a[k]) for k in ("pixels", "visible_wrong", "shadow_wrong", "gross_wrong")], line
@@ -180,7 +180,7 @@ json soft.json 'j[0]["config"]["COUNT_BITS"] < j[1]["config"]["COUNT_BITS"] and 
 
 # A row of another size has its own number of pixels.
 expect 0 "$kage" sweep courtyard "${quick[@]}" --axes SIZE=32x24 --store size.sqlite
-[ "$(sed '/^#/d; s/^[ *]//' stdout | awk '{print $1, $(NF - 12)}')" = "base 3072
+[ "$(sed '/^#/d; s/^[ *]//' stdout | awk '{print $1, $(NF - 13)}')" = "base 3072
 SIZE 768" ] || fail "pixels of rows: $(cat stdout)"
 
 # About a plan of the scene for the sweep's size and frames: what kage plan prints for them.

@@ -197,6 +197,30 @@ TEST_CASE("one share for all shadows is an error by classes, and a table takes m
   CHECK(s.accuracy(table, s.drawn(table)).all.squares < s.accuracy(s.base, s.drawn(s.base)).all.squares / 10);
 }
 
+TEST_CASE("light is held against the truth, whatever the finest picture has") {
+  Swept one("courtyard", "default");
+  Swept s("courtyard");
+  const PointAccuracy shade = one.accuracy(one.base, one.drawn(one.base));
+  const PointAccuracy table = s.accuracy(s.base, s.drawn(s.base));
+  CHECK(table.light.pixels > 1000);
+  CHECK(table.light.shadowed > 100);
+  CHECK(table.light.squares < shade.light.squares / 10);
+  CHECK(table.finest_light.squares <= table.light.squares);
+  // A picture whose light is wrong everywhere, and the finest one's error, which stays.
+  DrawnFrame dark = s.drawn(s.base);
+  for (auto& c : dark.color) c[0] = static_cast<std::uint8_t>(c[0] / 2);
+  const PointAccuracy bad = s.accuracy(s.base, dark);
+  CHECK(bad.light.lit_sum > 20.0 * static_cast<double>(bad.light.pixels - bad.light.shadowed));
+  CHECK(bad.finest_light.squares == table.finest_light.squares);
+  // A hole in a face shows no light: pixels that show another face than the ray's are left out.
+  DrawnFrame hole = s.drawn(s.base);
+  for (std::size_t i = 0; i < hole.face.size(); i += 2) hole.face[i] = kNothing;
+  CHECK(s.accuracy(s.base, hole).light.pixels < table.light.pixels * 6 / 10);
+  SweepPoint culled = s.base;
+  culled.look.cull = true;
+  CHECK(s.accuracy(culled, s.drawn(culled)).light.pixels == 0);
+}
+
 TEST_CASE("volumes that a core without FSF leaves out are wrong and not gross") {
   for (const char* name : {"courtyard", "three-lights"}) {
     CAPTURE(name);
