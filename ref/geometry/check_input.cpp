@@ -58,7 +58,7 @@ void check_look(const Look& look) {
   if (look.samples < 1 || look.samples > kMaxSamples)
     throw Error(fmt::format("{} samples of a light: there must be 1 .. {}", look.samples, kMaxSamples));
   if (look.classes < 1 || look.classes > kMaxClasses)
-    throw Error(fmt::format("{} classes of normals: there must be 1 .. {}", look.classes, kMaxClasses));
+    throw Error(fmt::format("{} classes of light: there must be 1 .. {}", look.classes, kMaxClasses));
   if (look.sub_bits < kLeastSubBits || look.sub_bits > kMostSubBits)
     throw Error(
         fmt::format("{} bits of a subpixel: there must be {} .. {}", look.sub_bits, kLeastSubBits, kMostSubBits));

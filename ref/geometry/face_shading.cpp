@@ -20,6 +20,7 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
   glm::dvec3 factor{1, 1, 1};
   if (s.lit) {
     const std::uint32_t number = table_->number(side);
+    s.lit = number > 0;
     factor = table_->before_own_shadow(side, number);
     if (derived::has_table(*config_)) s.normal_class = number;
   }

@@ -6,13 +6,12 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "geometry/facing.hpp"
 #include "shadow/shadow_caster.hpp"
 
 namespace kage {
 namespace {
 
-// Boxes times faces, past which the answer is yes: a second's work.
+// Boxes times faces, past which the answer is yes: some tenths of a second for each light.
 constexpr std::size_t kMostWork = std::size_t{1} << 27U;
 
 // A component no more than this part of its size before a face lies in the face's plane.
@@ -63,16 +62,16 @@ bool KeptLight::may_be(std::uint32_t polygon, const Component& part, int eye_sid
     radius = std::max(radius, glm::length(light.axis_u) + glm::length(light.axis_v));
   const glm::dvec3 along = light.directional ? -light.direction : light.position - middle;
   const double length = light.directional ? std::numeric_limits<double>::max() : 1;
+  const FacePlane plane(*frame_, face);
+  const glm::dvec3 normal = plane.normal * (eye_side / plane.normal_length);
   for (std::size_t c = 0; c < boxes_.size(); ++c) {
     const Component& caster = frame_->components[c];
-    if (caster.translucent) continue;
-    if (&caster != &part) {
-      if (meets(boxes_[c], middle, along, length, radius)) return true;
-      continue;
-    }
-    const glm::dvec3 normal = normal_of(*frame_, frame_->triangles[face.triangle]) * static_cast<double>(eye_side);
-    const double size = glm::length(normal);
-    if (!caster.convex && size > 0 && !is_behind(boxes_[c], middle, normal / size)) return true;
+    const bool own = &caster == &part;
+    if (caster.translucent || (own && caster.convex)) continue;
+    // Light comes from before the face, and so do those that keep it.
+    if ((own || meets(boxes_[c], middle, along, length, radius)) &&
+        !(plane.normal_length > 0 && is_behind(boxes_[c], middle, normal)))
+      return true;
   }
   return false;
 }

@@ -27,7 +27,10 @@ constexpr double kTogether = 0.25;
 // Weight of a share that, as far as boxes tell, no pixel needs.
 constexpr double kNeverKept = 0x1p-10;
 
-// No entry takes so much that what a face shadows itself leaves less than this part.
+// A part of its class to speak of, by area.
+constexpr double kOfClass = 1.0 / 16;
+
+// A face whose class was not made for it is left so much at least by its own shadow.
 constexpr double kLeastLeft = 1.0 / 64;
 
 }  // namespace
@@ -61,39 +64,85 @@ LightTable::LightTable(const SceneFrame& frame, const Config& config, const Look
   if (lights.casting == 0) return;
   WeightedVectors all;
   all.dimensions = numbers_;
-  std::vector<std::uint32_t*> whose;
+  std::vector<Member> members;
   double area = 0;
-  const KeptLight kept(frame);
-  for (const Component& part : frame.components)
-    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
-      const Triangle& t = frame.triangles[frame.polygons[i].triangle];
-      if (t.unlit || (t.alpha < 255 && config.translucency > 0)) continue;
-      FaceSide side(frame, lights, i, 1);
-      for (const int eye_side : {1, -1}) {
-        side.eye_side = eye_side;
-        if ((part.closed && eye_side < 0) || !side.takes_shadow(lights)) continue;
-        Loss l = loss(side);
-        for (std::size_t k = 0; k < lights.casting; ++k) {
-          const bool needed = side.count(lights, k, -1) > 0 || kept.may_be(i, part, eye_side, frame.lights[k]);
-          if (needed) area += l.area * kChannels;
-          for (std::size_t c = 0; c < kChannels && !needed; ++c) l.weights[k * kChannels + c] *= kNeverKept;
-        }
-        all.values.insert(all.values.end(), l.shares.begin(), l.shares.end());
-        all.weights.insert(all.weights.end(), l.weights.begin(), l.weights.end());
-        whose.push_back(&class_[i][eye_side > 0 ? 0 : 1]);
-      }
-    }
+  add_sides(false, all, members, area);
+  if (members.empty()) add_sides(true, all, members, area);
   if (!derived::has_table(config)) {
     make_one(all, look);
-    measure(all, std::vector<std::uint32_t>(whose.size(), 0), area);
+    round_middles();  // not limited: one bright face would take the shadows of all others
+    measure(all, std::vector<std::uint32_t>(members.size(), 0), area);
     return;
   }
   const auto room = static_cast<std::size_t>(std::min(derived::most_class(config), look.classes));
   const Clusters clusters = clusters_of(all, room);
   middles_ = clusters.middles;
+  for (std::size_t i = 0; i < members.size(); ++i) *members[i].number = clusters.of[i] + 1;
   round_middles();
-  for (std::size_t i = 0; i < whose.size(); ++i) *whose[i] = clusters.of[i] + 1;
+  limit(members, clusters.of);
   measure(all, clusters.of, area);
+}
+
+// All sides that light reaches and that the eye may see. The inside of a closed component gets light from within alone;
+// if `inner`, it counts all the same.
+void LightTable::add_sides(bool inner, WeightedVectors& all, std::vector<Member>& members, double& area) {
+  const KeptLight kept(*frame_);
+  const std::vector<SpaceBox> boxes = component_boxes(*frame_);
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    const Component& part = frame_->components[p];
+    const auto samples = lights_->samples();
+    const bool from_within =
+        std::any_of(samples.begin(), samples.end(), [&](const ShadowCaster& c) { return !c.light_outside(boxes[p]); });
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
+      const Triangle& t = frame_->triangles[frame_->polygons[i].triangle];
+      if (t.unlit || (t.alpha < 255 && config_->translucency > 0)) continue;
+      FaceSide side(*frame_, *lights_, i, 1);
+      for (const int eye_side : {1, -1}) {
+        side.eye_side = eye_side;
+        if ((eye_side < 0 && part.closed && !from_within && !inner) || !side.takes_shadow(*lights_)) continue;
+        Loss l = loss(side);
+        Member& m = members.emplace_back(Member{&class_[i][eye_side > 0 ? 0 : 1], l.area, l.brightest, {}});
+        for (std::size_t k = 0; k < lights_->casting; ++k) {
+          m.behind.push_back(shadows_itself(side) ? side.count(*lights_, k, -1) : 0);
+          const bool needed = side.count(*lights_, k, -1) > 0 || kept.may_be(i, part, eye_side, frame_->lights[k]);
+          if (needed) area += l.area * kChannels;
+          for (std::size_t c = 0; c < kChannels && !needed; ++c) l.weights[k * kChannels + c] *= kNeverKept;
+        }
+        all.values.insert(all.values.end(), l.shares.begin(), l.shares.end());
+        all.weights.insert(all.weights.end(), l.weights.begin(), l.weights.end());
+      }
+    }
+  }
+}
+
+// Lowers entries by which a member's own shadow would ask for a colour above white, if it is a part of its class to
+// speak of: what is lit must come out right, and a small face must not take the shadows of all others.
+void LightTable::limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of) {
+  std::vector<double> areas(middles_.size() / numbers_, 0);
+  for (std::size_t i = 0; i < members.size(); ++i) areas[of[i]] += members[i].area;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    if (members[i].area < kOfClass * areas[of[i]]) continue;
+    for (std::size_t c = 0; c < kChannels; ++c) {
+      double own_shadow = 0;
+      for (std::size_t l = 0; l < lights_->casting; ++l)
+        own_shadow += members[i].behind[l] * middles_[of[i] * numbers_ + l * kChannels + c];
+      const double room = std::max(1 - members[i].brightest[static_cast<int>(c)] / kWhite, 0.0);
+      if (own_shadow <= room) continue;
+      for (std::size_t l = 0; l < lights_->casting; ++l) {
+        double& entry = middles_[of[i] * numbers_ + l * kChannels + c];
+        entry =
+            std::ldexp(std::floor(std::ldexp(entry * (room / own_shadow), config_->shade_frac)), -config_->shade_frac);
+      }
+    }
+  }
+}
+
+// As RESOLVE has them.
+void LightTable::round_middles() {
+  for (double& m : middles_)
+    m = std::isfinite(m) ? std::ldexp(static_cast<double>(to_fixed(std::clamp(m, 0.0, 1.0), config_->shade_frac)),
+                                      -config_->shade_frac)
+                         : 0;
 }
 
 void LightTable::measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area) {
@@ -116,13 +165,6 @@ void LightTable::make_one(const WeightedVectors& all, const Look& look) {
   }
   middles_.assign(numbers_, weight > 0 ? sum / weight : 0);
   if (look.darkening) middles_.assign(numbers_, *look.darkening / lights_->points_of(0));
-  round_middles();
-}
-
-// As RESOLVE has them: what a face shadows itself is made up for by the very number.
-void LightTable::round_middles() {
-  for (double& m : middles_)
-    m = std::ldexp(static_cast<double>(to_fixed(std::min(m, 1.0), config_->shade_frac)), -config_->shade_frac);
 }
 
 bool LightTable::shadows_itself(const FaceSide& side) const {
@@ -155,7 +197,8 @@ LightTable::Loss LightTable::loss(const FaceSide& side) const {
   const double length = glm::length(middle.normal);
   if (length > 0) middle.normal /= length;
 
-  Loss out{std::vector<double>(numbers_, 0), std::vector<double>(numbers_, 0), area};
+  Loss out{std::vector<double>(numbers_, 0), std::vector<double>(numbers_, 0), area, lit_color(side, middle)};
+  for (const Place& corner : corners) out.brightest = glm::max(out.brightest, lit_color(side, corner));
   if (alike && !lighting_->depends_on_place(side.sides, side.eye_side)) {
     add_loss(side, middle, area, out);
   } else {
@@ -165,6 +208,14 @@ LightTable::Loss LightTable::loss(const FaceSide& side) const {
   for (std::size_t i = 0; i < numbers_; ++i)
     if (out.weights[i] > 0) out.shares[i] /= out.weights[i];
   return out;
+}
+
+// The colour of a place with no shadow on it.
+glm::dvec3 LightTable::lit_color(const FaceSide& side, const Place& at) const {
+  std::array<glm::dvec3, kMaxLights> arrive;
+  const std::span<glm::dvec3> of = std::span(arrive).first(lighting_->lights());
+  lighting_->arriving(at.point, at.normal, side.sides, side.eye_side, of);
+  return lighting_->displayed(at.normal, at.base, std::accumulate(of.begin(), of.end(), glm::dvec3(0)));
 }
 
 // At one place of a side, adds to `out` what its shadows take, times the weight of it.
@@ -187,7 +238,7 @@ void LightTable::add_loss(const FaceSide& side, const Place& at, double weight, 
   for (std::size_t l = 0; l < casting; ++l) {
     before[l] = side.count(*lights_, l, 1);
     if (shadows_itself(side)) behind[l] = side.count(*lights_, l, -1);
-    taken[l] = before[l] > 0 ? lit - displayed(others + kept - arrive[l]) : glm::dvec3(0);
+    taken[l] = before[l] > 0 ? lit - displayed(others + (sum(0, l) + sum(l + 1, casting))) : glm::dvec3(0);
   }
   const glm::dvec3 alone =
       std::accumulate(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(casting), glm::dvec3(0));
@@ -204,7 +255,7 @@ void LightTable::add_loss(const FaceSide& side, const Place& at, double weight, 
       own_shadow += share[l] * behind[l];
     }
     // With its own shadow made up for, the colour must still be one: else its shadows are fainter.
-    const double most = kWhite / lit[c] - 1;
+    const double most = kWhite / std::max(out.brightest[c], lit[c]) - 1;
     const double scale = own_shadow > most ? most / own_shadow : 1;
     const double color = lit[c] * (1 + scale * own_shadow);
     for (std::size_t l = 0; l < casting; ++l) {
@@ -219,6 +270,7 @@ void LightTable::add_loss(const FaceSide& side, const Place& at, double weight, 
 
 std::uint32_t LightTable::number(const FaceSide& side) const {
   const std::uint32_t known = class_[side.polygon][side.eye_side > 0 ? 0 : 1];
+  if (middles_.empty()) return 0;
   if (known > 0 || !derived::has_table(*config_)) return std::max(known, 1U);
   const Loss l = loss(side);
   return nearest_middle(middles_, numbers_, l.shares.data(), l.weights.data()) + 1;
@@ -226,7 +278,7 @@ std::uint32_t LightTable::number(const FaceSide& side) const {
 
 glm::dvec3 LightTable::before_own_shadow(const FaceSide& side, std::uint32_t number) const {
   glm::dvec3 left{1, 1, 1};
-  if (!shadows_itself(side)) return left;
+  if (number == 0 || !shadows_itself(side)) return left;
   for (std::size_t l = 0; l < lights_->casting; ++l) {
     const int behind = side.count(*lights_, l, -1);
     for (std::size_t c = 0; c < kChannels; ++c)

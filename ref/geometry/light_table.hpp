@@ -33,14 +33,14 @@ struct FaceSide {
 };
 
 /// The shares of a frame. Faces that lose about the same are in one class and have one entry. Classes follow from all
-/// faces of the scene, weighted by area and colour, not from those in view: they stay while scene and lights rest,
-/// wherever the camera goes. Refers to what it is made of.
+/// faces of the scene, weighted by area and colour, not from those in view: they stay while scene, lights and the
+/// camera's `up`, from which ambient light comes, rest. Refers to what it is made of.
 class LightTable {
  public:
   LightTable(const SceneFrame& frame, const Config& config, const Look& look, const SampledLights& lights,
              const Lighting& lighting);
 
-  /// The class of a side that takes shadow, from 1; without a table all are in one.
+  /// The class of a side that takes shadow, from 1; without a table all are in one. 0: there is none.
   [[nodiscard]] std::uint32_t number(const FaceSide& side) const;
 
   /// A factor for each channel of a side's colour. The shadow that the side throws on itself counts the points behind
@@ -61,6 +61,15 @@ class LightTable {
     std::vector<double> shares;
     std::vector<double> weights;
     double area = 0;
+    glm::dvec3 brightest{0, 0, 0};  // colour of its places with no shadow on them
+  };
+
+  /// Of a side that is in the table, what limits its class's entry.
+  struct Member {
+    std::uint32_t* number;  // where its class is kept
+    double area;
+    glm::dvec3 brightest;
+    std::vector<int> behind;  // of each light that casts, the points that the side keeps from itself
   };
 
   /// A place of a side: where light is worked out.
@@ -71,11 +80,14 @@ class LightTable {
   };
 
   [[nodiscard]] Loss loss(const FaceSide& side) const;
+  [[nodiscard]] glm::dvec3 lit_color(const FaceSide& side, const Place& at) const;
   void add_loss(const FaceSide& side, const Place& at, double weight, Loss& out) const;
+  void add_sides(bool inner, WeightedVectors& all, std::vector<Member>& members, double& area);
+  void round_middles();
+  void limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of);
   [[nodiscard]] bool shadows_itself(const FaceSide& side) const;
   void make_one(const WeightedVectors& all, const Look& look);
   void measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area);
-  void round_middles();
 
   const SceneFrame* frame_;
   const Config* config_;

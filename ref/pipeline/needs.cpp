@@ -29,7 +29,11 @@ Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int heigh
   needs.color =
       any_light([](const Light& l) { return !is_grey(l.color); }) ||
       std::any_of(frame.shading.begin(), frame.shading.end(), [](const ShadingVertex& v) { return !is_grey(v.color); });
-  const LightDemand light = light_demand(frame, {}, {});
+  Config counted;
+  counted.count_bits = kGreatest.count_bits;
+  Look look;
+  look.samples = samples;
+  const LightDemand light = light_demand(frame, counted, look);
   needs.share_error = light.share_error;
   needs.color_spread = light.color_spread;
   return needs;

@@ -236,7 +236,7 @@ SceneFrame penumbra_with(LightShape shape) {
 constexpr int kWidth = 640;
 constexpr int kHeight = 480;
 
-/// A picture, and the colour that a sample takes of white.
+/// A picture, and the most that a sample takes of white.
 struct Sampled {
   Image image;
   double step;
@@ -246,6 +246,7 @@ Sampled picture_of(const SceneFrame& f, int samples, std::uint64_t seed) {
   Config c;
   c.smooth = 1;
   c.color_frac = 8;
+  c.class_bits = 4;
   c = config_for_lights(f, 255, c);
   Look look;
   look.samples = samples;
@@ -255,7 +256,9 @@ Sampled picture_of(const SceneFrame& f, int samples, std::uint64_t seed) {
   std::size_t at = 0;
   for (const std::uint32_t p : draw(g, c))
     for (unsigned k = 0; k < 24; k += 8) image.data[at++] = static_cast<std::uint8_t>(p >> k);
-  return {std::move(image), std::ldexp(255.0 * g.shade, -c.shade_frac)};
+  std::uint32_t most = 0;
+  for (const auto& entry : g.shares) most = std::max(most, entry[1]);
+  return {std::move(image), std::ldexp(255.0 * most, -c.shade_frac)};
 }
 
 // The mean of pictures of 255 samples with 8 seeds.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -354,17 +355,18 @@ std::string group_of(const Json& row) {
                      look.at("height").get<int>());
 }
 
-// Figures nearer than this to each other are equal: an estimate of cells, or a clock for a thousand pixels, tells no
-// more.
-constexpr double kEqualShare = 0.01;
+// Figures are compared in steps of 1 %: an estimate of cells, or a clock for a thousand pixels, tells no more. Steps,
+// unlike a tolerance, leave some row of any that beat each other in a ring.
+static double in_steps(double figure) { return figure > 0 ? std::floor(std::log(figure) / std::log(1.01)) : -INFINITY; }
 
 std::vector<bool> pareto(const std::vector<Json>& rows) {
   std::vector<std::array<double, 4>> costs;
   std::vector<std::string> groups;
   for (const Json& row : rows) {
-    costs.push_back({wrong_share(row), row.at("accuracy").at("sources").at("all").at("mean_square").get<double>(),
-                     row.at("speed").at("rtl_cycles_per_pixel").get<double>(),
-                     row.at("area").at("luts").get<double>()});
+    costs.push_back({in_steps(wrong_share(row)),
+                     in_steps(row.at("accuracy").at("sources").at("all").at("mean_square").get<double>()),
+                     in_steps(row.at("speed").at("rtl_cycles_per_pixel").get<double>()),
+                     in_steps(row.at("area").at("luts").get<double>())});
     groups.push_back(group_of(row));
   }
   std::vector<bool> out;
@@ -375,8 +377,8 @@ std::vector<bool> pareto(const std::vector<Json>& rows) {
       bool as_good = true;
       bool better = false;
       for (std::size_t c = 0; c < costs[i].size(); ++c) {
-        as_good = as_good && costs[k][c] <= costs[i][c] * (1 + kEqualShare);
-        better = better || costs[k][c] * (1 + kEqualShare) < costs[i][c];
+        as_good = as_good && costs[k][c] <= costs[i][c];
+        better = better || costs[k][c] < costs[i][c];
       }
       beaten = as_good && better;
     }

@@ -125,8 +125,8 @@ std::string build_identity(const std::string& name);
 std::string group_of(const nlohmann::ordered_json& row);
 
 /// Marks the rows that no other row of the same scene and size beats. A row beats another if it is at least as good in
-/// wrong pixels, error of colour, clocks a pixel and look-up tables, and better in one; figures within 1 % of each
-/// other are equal. Rows have `scene`, `config` (with `width`, `height` in `look`), `accuracy`, `speed` and `area`.
+/// wrong pixels, error of colour, clocks a pixel and look-up tables, and better in one; figures are compared in steps
+/// of 1 %. Rows have `scene`, `config` (with `width`, `height` in `look`), `accuracy`, `speed` and `area`.
 std::vector<bool> pareto(const std::vector<nlohmann::ordered_json>& rows);
 
 }  // namespace kage::explore

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
 #include <utility>
 
 #include "kage/core.hpp"
@@ -217,14 +218,22 @@ Outcome TableCase::check(const Context& context) const {
       return 255 * reference_encode(light);
     };
     const unsigned all = (1U << n) - 1;
+    const double direct = std::accumulate(arrives.begin(), arrives.end(), 0.0);
     double together = color(0) - color(all);
     for (std::size_t l = 0; l < n; ++l) together -= color(0) - color(1U << l);
     for (unsigned state = 0; state <= all; ++state) {
       double taken = 0;
-      for (std::size_t l = 0; l < n; ++l)
-        if ((state >> l & 1U) != 0) taken += g.shares[first + l][static_cast<std::size_t>(c)] / 65536.0;
+      double stated = 0;  // each light's own loss, and its part of a quarter of what they take together
+      for (std::size_t l = 0; l < n; ++l) {
+        if ((state >> l & 1U) == 0) continue;
+        taken += g.shares[first + l][static_cast<std::size_t>(c)] / 65536.0;
+        stated += color(0) - color(1U << l) + (direct > 0 ? together / 4 * (arrives[l] / direct) : 0);
+      }
       if (context.injected(Injection::large_share)) taken *= 65.0 / 64;
       const auto lights = static_cast<double>(n);
+      const double rounding = lights * 255 * 0x1p-17 + 4 * (lights + 1) * kEncoding;
+      if (std::abs(color(0) * taken - stated) > rounding)
+        o.fail(fmt::format("state {}: the entry takes {} of {}, not {}", state, color(0) * taken, color(0), stated));
       o.measure(std::abs(color(0) * (1 - taken) - color(state)),
                 together + lights * 255 * 0x1p-17 + 2 * (lights + 1) * kEncoding);
     }

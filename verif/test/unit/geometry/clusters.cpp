@@ -59,7 +59,6 @@ TEST_CASE("few vectors come to an error near the least that there is") {
   Random random(test_seed());
   CAPTURE(test_seed());
   double sum = 0;
-  double worst = 0;
   int rounds = 0;
   for (int round = 0; round < 300; ++round) {
     const WeightedVectors v = random_vectors(random, random.in(2, 7), random.in(1, 4));
@@ -73,10 +72,9 @@ TEST_CASE("few vectors come to an error near the least that there is") {
     REQUIRE(got >= least * (1 - 1e-9) - 1e-12);
     if (least < 1e-6) continue;
     sum += got / least;
-    worst = std::max(worst, got / least);
     ++rounds;
   }
-  std::printf("clusters: error %.3f of the least in the mean, %.2f at most\n", sum / rounds, worst);
+  std::printf("clusters: error %.3f of the least in the mean\n", sum / rounds);
   CHECK(rounds > 100);
   CHECK(sum / rounds < 1.15);
 }
@@ -109,8 +107,12 @@ TEST_CASE("a member is in the cluster that is nearest to it, and more clusters h
     const Clusters again = clusters_of(v, most);
     CHECK(again.of == c.of);
     CHECK(again.middles == c.middles);
+    // Passes end where nothing moves, or soon after: then next to nothing is left to gain by moving.
+    Clusters moved = c;
     for (std::size_t i = 0; i < v.count(); ++i)
-      CHECK(nearest_middle(c.middles, v.dimensions, v.value(i), v.weight(i)) < c.middles.size() / v.dimensions);
+      moved.of[i] = nearest_middle(c.middles, v.dimensions, v.value(i), v.weight(i));
+    CHECK(error_of(v, moved) <= error);
+    CHECK(error_of(v, moved) > 0.97 * error - 1e-12);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light samples, what lights send where, classes of normals, and family 30: how far a table's shares are off.
+// Light samples, what lights send where, and family 30: how far a table's shares are off.
 #include "kage/light.hpp"
 
 #include <fmt/format.h>

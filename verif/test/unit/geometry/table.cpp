@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
+#include "geometry/kept_light.hpp"
 #include "geometry/light_table.hpp"
 #include "geometry/view.hpp"
 #include "kage/geometry.hpp"
 #include "kage/light.hpp"
+#include "stimulus/scenes/lit_scenes.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
 
@@ -129,6 +132,110 @@ TEST_CASE("no share for a whole frame has less error than the one that it has") 
     same.darkening = g.shade / 65536.0;
     CHECK(std::abs(error_of(f, c, same) - fitted) < 0.01);
   }
+}
+
+TEST_CASE("in a closed room with a lamp the walls are in the table, and each has a class of it") {
+  SceneFrame f;
+  add_solid(f, box_solid(), {0, 0, 0}, {3, 2, 3}, Turn{}, {0.7, 0.7, 0.7});
+  add_solid(f, box_solid(), {0.8, -1, 0}, {0.3, 0.5, 0.3}, Turn{}, {0.2, 0.2, 0.2});
+  look_at(f.camera, {-2, 0.5, -2}, {0.5, -0.5, 0.5});
+  f.lights = {Light{}};
+  f.lights[0].directional = false;
+  f.lights[0].position = {0.5, 1.5, 0};
+  for (const bool room_alone : {false, true}) {
+    SceneFrame g = f;
+    if (room_alone) {
+      g.components.resize(1);
+      g.polygons.resize(g.components[0].polygon_count);
+      g.triangles.resize(g.components[0].count);
+    }
+    // A lamp within, one outside whose light no inner wall gets, and none that casts.
+    for (const glm::dvec3& place : {glm::dvec3(0.5, 1.5, 0), glm::dvec3(0, 9, 0)}) {
+      g.lights[0].position = place;
+      for (const int bits : {1, 2, 4}) {
+        const Config c = tabled(bits, 1);
+        const FrameGeometry made = make_geometry(g, c, 64, 48);
+        int lit = 0;
+        for (std::uint32_t i = 0; i < made.drawn; ++i) {
+          const ScreenPolygon& p = made.polygons[i];
+          CHECK(p.normal_class * static_cast<std::size_t>(c.lights) <= made.shares.size());
+          if (bits > 1) CHECK((p.normal_class > 0) == p.lit);
+          lit += p.lit ? 1 : 0;
+        }
+        CHECK(lit > 0);
+        if (bits == 1) CHECK(made.shade > 0);
+      }
+    }
+  }
+}
+
+TEST_CASE("light may be kept from where casters stand before it, and nowhere else") {
+  SceneFrame f;
+  for (int x = -4; x <= 4; ++x) add_solid(f, pane_solid(), {x, 0, 0}, {0.4, 0.4, 1}, Turn{}, {1, 1, 1}, false, false);
+  const std::size_t floor = f.polygons.size();
+  add_solid(f, box_solid(), {0, 0, 2}, {0.5, 0.5, 0.2}, Turn{}, {1, 1, 1});
+  const KeptLight kept(f);
+  Light lamp;
+  lamp.directional = false;
+  lamp.position = {0, 0, 8};
+  int may = 0;
+  for (const Component& part : f.components)
+    for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count && i < floor; ++i) {
+      double x = 0;
+      for (const std::uint32_t v : f.outline(f.polygons[i])) x += f.vertices[v].x / f.polygons[i].count;
+      CAPTURE(i, x);
+      const bool is = kept.may_be(i, part, 1, lamp);
+      may += is ? 1 : 0;
+      if (std::abs(x) < 0.5) CHECK(is);
+      if (std::abs(x) > 2.1) CHECK_FALSE(is);
+    }
+  CHECK(may > 0);
+  // Towards a sun on the other side nothing stands; the lamp's own size may bring the box between.
+  Light sun;
+  sun.direction = {0, 0, 1};
+  CHECK_FALSE(kept.may_be(0, f.components[0], 1, sun));
+  CHECK_FALSE(kept.may_be(0, f.components[0], 1, lamp));
+  lamp.shape = LightShape::disc;
+  lamp.axis_u = {4, 0, 0};
+  lamp.axis_v = {0, 4, 0};
+  CHECK(kept.may_be(0, f.components[0], 1, lamp));
+}
+
+TEST_CASE("a frame's light asks for a table where shares differ, and for smooth colour where light does") {
+  const auto demand = [](const char* name) {
+    for (const LitScene& lit : lit_scenes())
+      if (lit.name == name) return light_demand(Scene::from(lit.parts).frame(0, 1), {}, {});
+    throw std::runtime_error(name);
+  };
+  CHECK(demand("low-sun").share_error > 3);
+  CHECK(demand("lamp").share_error > 10);
+  CHECK(demand("two-triangles").color_spread > 30);
+  // A floor and a box under a sun: shadows fall on the floor alone, whose share is one.
+  SceneFrame f;
+  add_solid(f, pane_solid(), {0, 0, 0}, {9, 9, 1}, Turn{}, {1, 1, 1}, false, false);
+  add_solid(f, box_solid(), {0, 0, 2}, {0.5, 0.5, 0.2}, Turn{}, {1, 1, 1});
+  f.lights = {Light{}};
+  f.lights[0].direction = {0, 0, -1};
+  const LightDemand even = light_demand(f, {}, {});
+  CHECK(even.share_error < 0.6);  // SHADE has 8 bits
+  CHECK(even.color_spread == 0);
+
+  Needs needs;
+  needs.shadows = true;
+  Config c;
+  CHECK(approximates(c, needs).empty());
+  needs.share_error = 1.5;
+  CHECK(approximates(c, needs).size() == 1);
+  needs.color_spread = 1.5;
+  CHECK(approximates(c, needs).size() == 2);
+  c.count_bits = 1;
+  c.class_bits = 4;
+  CHECK(approximates(c, needs).size() == 1);
+  c.smooth = 1;
+  CHECK(approximates(c, needs).empty());
+  needs.shadows = false;
+  c.class_bits = 1;
+  CHECK(approximates(c, needs).empty());
 }
 
 TEST_CASE("a face takes shadow where some sample of the light is before it, and shows all that they give") {
