@@ -115,8 +115,8 @@ void LightTable::add_sides(bool inner, WeightedVectors& all, std::vector<Member>
   }
 }
 
-// Lowers entries by which a member's own shadow would ask for a colour above white, if it is a part of its class to
-// speak of: what is lit must come out right, and a small face must not take the shadows of all others.
+// Lowers entries by which a member's own shadow would ask for a colour above white: what is lit must come out right.
+// Members that are a small part of their class are passed over, or they would take the shadows of all others.
 void LightTable::limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of) {
   std::vector<double> areas(middles_.size() / numbers_, 0);
   for (std::size_t i = 0; i < members.size(); ++i) areas[of[i]] += members[i].area;

@@ -64,7 +64,7 @@ class LightTable {
     glm::dvec3 brightest{0, 0, 0};  // colour of its places with no shadow on them
   };
 
-  /// Of a side that is in the table, what limits its class's entry.
+  /// A side that is in the table, with what limits its class's entry.
   struct Member {
     std::uint32_t* number;  // where its class is kept
     double area;
