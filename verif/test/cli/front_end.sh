@@ -21,8 +21,8 @@ grep -q '^courtyard: ACTIVE: ' stdout && fail "the configuration has a front end
 expect 0 "$kage" cosim courtyard --front-end rtl --size 32x24 --frames 1 --out given --json g.json
 grep -qx 'courtyard: ACTIVE: 512 polygons at once, since meshes has no front end' stdout || fail "ACTIVE is not told: $(cat stdout)"
 json g.json 'j["same"] and j["config"]["ACTIVE"] == 512 and j["options"]["front_end"] == "rtl"'
-expect 0 "$kage" model default --front-end rtl --json m.json
-grep -q '^default with ACTIVE 512: .* (was there)$' stdout || fail "it is another model: $(cat stdout)"
+expect 0 "$kage" model meshes --front-end rtl --json m.json
+grep -q '^meshes with ACTIVE 512: .* (was there)$' stdout || fail "it is another model: $(cat stdout)"
 json m.json 'j[0]["config"]["ACTIVE"] == 512'
 # One EOL brings hundreds of spans of a core of one lane: it works for long without a move at its ports, and is not hung.
 echo '{SMOOTH: 1, COLOR_FRAC: 8, COUNT_BITS: 4, LIGHTS: 4, CLASS_BITS: 8, SHADE_FRAC: 12, LANES: 1, MAX_WIDTH: 160, ACTIVE: 512}' >long.yaml
