@@ -57,7 +57,7 @@ def told(b):
         ends["ES"]["token"].split()[0] == ends["RESOLVE"]["token"].split()[0], f"front_end: made of two tokens: {ends}"
     )
     # One token of the stream stands for both, and each has what the RTL did at it.
-    check(ends["ES"]["rtl"] == ["state of a pixel"], f"front_end: at ES the RTL did {ends['EV']['rtl']}")
+    check(ends["ES"]["rtl"] == ["state of a pixel"], f"front_end: at ES the RTL did {ends['ES']['rtl']}")
     rest = ends["RESOLVE"]["rtl"] + entries[-1]["rtl"]
     check(rest == ["pixel that leaves the line", "pixel of video"], f"front_end: behind ES the RTL did {rest}")
 
