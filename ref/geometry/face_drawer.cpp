@@ -46,8 +46,7 @@ void FaceDrawer::draw(std::uint32_t index) {
   if (polygon_.empty()) return;
   ScreenPolygon base;
   base.lit = shaded.lit;
-  // A translucent face has no class: TP knows none.
-  if (config_->translucency == 0 || t.alpha == 255) base.normal_class = shaded.normal_class;
+  base.normal_class = shaded.normal_class;
   base.alpha = config_->translucency > 0 ? t.alpha : std::uint8_t{255};
   base.source = index;
   base.depth = depth_plane(corners, t, whole);

@@ -18,7 +18,8 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
   const FaceSide side(*frame_, *lights_, index, facing > 0 ? 1 : facing < 0 ? -1 : 0);
   Shaded s{!t.unlit && side.takes_shadow(*lights_), 0, {0, 0, 0}, false};
   glm::dvec3 factor{1, 1, 1};
-  if (s.lit) {
+  // A translucent face has no class, since TP knows none.
+  if (s.lit && (t.alpha == 255 || config_->translucency == 0)) {
     const std::uint32_t number = table_->number(side);
     s.lit = number > 0;
     factor = table_->before_own_shadow(side, number);

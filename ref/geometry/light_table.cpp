@@ -197,8 +197,13 @@ LightTable::Loss LightTable::loss(const FaceSide& side) const {
   const double length = glm::length(middle.normal);
   if (length > 0) middle.normal /= length;
 
-  Loss out{std::vector<double>(numbers_, 0), std::vector<double>(numbers_, 0), area, lit_color(side, middle)};
-  for (const Place& corner : corners) out.brightest = glm::max(out.brightest, lit_color(side, corner));
+  Loss out{std::vector<double>(numbers_, 0), std::vector<double>(numbers_, 0), area};
+  // Asked for only where a shadow of the side's own is to be made up for.
+  if (shadows_itself(side) &&
+      std::any_of(side.sides.begin(), side.sides.end(), [&](std::int8_t s) { return s * side.eye_side < 0; })) {
+    out.brightest = lit_color(side, middle);
+    for (const Place& corner : corners) out.brightest = glm::max(out.brightest, lit_color(side, corner));
+  }
   if (alike && !lighting_->depends_on_place(side.sides, side.eye_side)) {
     add_loss(side, middle, area, out);
   } else {

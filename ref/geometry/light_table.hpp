@@ -61,7 +61,7 @@ class LightTable {
     std::vector<double> shares;
     std::vector<double> weights;
     double area = 0;
-    glm::dvec3 brightest{0, 0, 0};  // colour of its places with no shadow on them
+    glm::dvec3 brightest{0, 0, 0};  // colour of its places with no shadow on them, if some points are behind it
   };
 
   /// A side that is in the table, with what limits its class's entry.

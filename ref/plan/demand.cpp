@@ -106,7 +106,9 @@ void add_classes(const SceneFrame& frame, Config config, const Look& look, const
   if (config.dsf_bits == 0 || !derived::has_table(config)) return;
   for (std::size_t i = 0; i < kClassSteps.size(); ++i) {
     config.class_bits = kClassSteps[i];
-    out.class_errors[i].raise(light_demand(frame, config, look).share_error, at);
+    const double error = light_demand(frame, config, look).share_error;
+    out.class_errors[i].raise(error, at);
+    if (error <= 1) return;  // no limit is less: this frame asks for no more classes
   }
 }
 
