@@ -162,7 +162,10 @@ class Maker {
     set(&Config::count_bits, count,
         !counts ? "one light, a point or at infinity, and no table"
         : needs.samples == 1 && needs.lights == 1
-            ? "one light, a point or at infinity; a table needs a counter"
+            ? fmt::format(
+                  "one light, a point or at infinity, with a table; without one, and its counter, one share for "
+                  "all leaves shadows {} off, root mean square, more than --max-color {}",
+                  steps(needs.share_error), limits_.color)
             : fmt::format("{} for a light, {}{}", counted(needs.samples, "sample"), counted(needs.lights, "light"),
                           one_less_text(count, info_of(&Config::count_bits))));
     set(&Config::lights, needs.lights,
@@ -326,11 +329,6 @@ int position_step(int least) {
 }
 
 int four_step(int least) { return (least + 3) / 4 * 4; }
-
-int class_step(int least) {
-  const auto step = std::find_if(kClassSteps.begin(), kClassSteps.end(), [&](int s) { return s >= least; });
-  return step != kClassSteps.end() ? *step : least;
-}
 
 int width_step(int least) {
   int best = 0;

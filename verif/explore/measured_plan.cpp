@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "contract/params.hpp"
@@ -25,8 +28,12 @@ struct Judged {
   SceneFrame frame;
   const DrawOptions* draw = nullptr;
   ScreenTruth truth;
-  DrawnFrame finest;
+  std::map<std::array<int, 4>, DrawnFrame> finest;  // by what decides how light is shown
 };
+
+/// Parameters that decide how light is shown. Colours are compared between pictures that share them: how wrong they
+/// make light follows from the frame's faces (light_demand), not from widths.
+std::array<int, 4> light_of(const Config& c) { return {c.smooth, c.count_bits, c.lights, c.class_bits}; }
 
 /// The same features with every width that may be lowered at its finest.
 Config finest_of(Config c) {
@@ -34,7 +41,6 @@ Config finest_of(Config c) {
   c.z_frac = kGreatest.z_frac;
   if (c.smooth > 0) c.color_frac = kGreatest.color_frac;
   if (c.dsf_bits > 0) c.shade_frac = kGreatest.shade_frac;
-  if (c.class_bits > 1) c.class_bits = kGreatest.class_bits;
   return c;
 }
 
@@ -53,8 +59,6 @@ std::vector<Width> widths_of(const Config& c) {
   std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
   if (c.smooth > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
   if (c.dsf_bits > 0) list.push_back({&Config::shade_frac, 1, shade_step});
-  // With one bit there is no table, which several lights need.
-  if (c.class_bits > 1) list.push_back({&Config::class_bits, 2, plan::class_step});
   return list;
 }
 
@@ -68,6 +72,19 @@ struct MeasuredPlan::Data {
   std::vector<Judged> frames;  // empty until they are asked for
   std::uint64_t pixels = 0;
   std::vector<Lowered> lowered;
+
+  /// The picture of a frame with the finest widths, light being shown as `config` does.
+  const DrawnFrame& finest_picture(Judged& of, const Config& config) const {
+    const auto [at, fresh] = of.finest.try_emplace(light_of(config));
+    if (fresh) {
+      Config c = finest_of(plan::finest(features, config.dsf_bits, 0));
+      std::tie(c.smooth, c.count_bits, c.lights, c.class_bits) =
+          std::tie(config.smooth, config.count_bits, config.lights, config.class_bits);
+      c.color_frac = c.smooth > 0 ? kGreatest.color_frac : 0;
+      at->second = draw(of.frame, c, *of.draw);
+    }
+    return at->second;
+  }
 
   void judge_all() {
     if (!frames.empty()) return;
@@ -84,7 +101,6 @@ struct MeasuredPlan::Data {
         const FrameGeometry g =
             make_geometry(j.frame, config, scene.draw.width, scene.draw.height, {.look = scene.draw.look});
         j.truth = screen_truth(g, config, scene.draw.threads);
-        j.finest = draw(j.frame, config, scene.draw);
         pixels += j.truth.pixels.size();
         frames.push_back(std::move(j));
       }
@@ -110,10 +126,10 @@ bool MeasuredPlan::within(const Accuracy& a) const {
 std::optional<Accuracy> MeasuredPlan::measure(const Config& config, bool whole) {
   data_->judge_all();
   Accuracy all;
-  for (const Judged& j : data_->frames) {
+  for (Judged& j : data_->frames) {
     data_->step();
     try {
-      all += compare(j.truth, j.finest, draw(j.frame, config, *j.draw), config);
+      all += compare(j.truth, data_->finest_picture(j, config), draw(j.frame, config, *j.draw), config);
     } catch (const Error&) {
       return std::nullopt;
     }

@@ -53,7 +53,7 @@ TEST_CASE("a bound holds against the oracle, and one bit less breaks its inequal
       options.limits.z = limit;
       const Plan plan = make_plan(scenes, options);
       CAPTURE(to_yaml(plan));
-      CHECK(plan.reasons.size() == kParams.size());
+      CHECK(reasoned_of(plan) == reasoned(plan));
       CHECK(plan.z_error <= limit);
 
       // By the oracle: no depth off by more, no colour off by more.

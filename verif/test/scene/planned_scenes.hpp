@@ -43,6 +43,24 @@ inline const PlanReason& reason(const Plan& plan, std::string_view parameter) {
   return plan.reasons[0];
 }
 
+/// The parameters that a plan gives reasons of: without units, none of theirs.
+inline std::vector<std::string_view> reasoned(const Plan& plan) {
+  std::vector<std::string_view> names;
+  for (const ParamInfo& p : kParams)
+    if (plan.config.units > 0 ||
+        std::string_view(",FACE_BITS,DX_BITS,SEG_BITS,ORDER_BITS,CLASSIC,").find("," + std::string(p.name) + ",") ==
+            std::string_view::npos)
+      names.push_back(p.name);
+  return names;
+}
+
+/// Likewise those that it does give.
+inline std::vector<std::string_view> reasoned_of(const Plan& plan) {
+  std::vector<std::string_view> names;
+  for (const PlanReason& r : plan.reasons) names.push_back(r.parameter);
+  return names;
+}
+
 /// The number in front of a phrase of a reason: what is needed before it is rounded up to a step.
 inline int before(const std::string& text, const std::string& phrase) {
   const std::size_t at = text.find(phrase);
