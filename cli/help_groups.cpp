@@ -19,7 +19,7 @@ const HelpGroup kGroups[] = {
     {"Input", {"--allow-outside", "--module", "--sound-only", "--pixel", "--port", "--baud", "--exclude", "--part"}},
     {"Picture",
      {"--size", "--frames", "--frame", "--order", "--alpha", "--cull", "--max-fragments", "--samples", "--seeds",
-      "--classes", "--sub-bits", "--level"}},
+      "--classes", "--max-shading", "--sub-bits", "--level"}},
     {"Core",
      {"--config", "--degrade", "--units-only", "--front-end", "--netlist", "--fault", "--mutant", "--plan", "--axes",
       "--grid"}},

@@ -168,6 +168,13 @@ static void option_lights(Command command, cosim::SourceOptions& options) {
                   "has room for")
       .check(whole_number(1, kMaxClasses))
       .type_name("N");
+  command
+      .add_option("--max-shading", options.max_shading,
+                  fmt::format("with SMOOTH, cut faces where colours between their corners are more than N of 255 off "
+                              "the light at the pixel; 0: never; default {}",
+                              options.max_shading))
+      .check(whole_number(0, 255))
+      .type_name("N");
 }
 
 static void option_sub_bits(Command command, cosim::SourceOptions& options) {

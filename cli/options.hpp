@@ -40,7 +40,8 @@ struct Options : cosim::SourceOptions {
 void option_config(Command command, cosim::SourceOptions& options);
 
 /// Options that decide the pictures of a scene: --size, --frames, --order, --alpha, --cull, --max-fragments, --samples,
-/// --classes, --sub-bits, --seed; and --threads, --allow-outside. `frames` says how many are made without --frames.
+/// --classes, --max-shading, --sub-bits, --seed; and --threads, --allow-outside. `frames` says how many are made
+/// without --frames.
 void options_of_pictures(Command command, cosim::SourceOptions& options, const char* frames = "the scene's own");
 /// Options of every command that makes frames for a core: those, and --config, --degrade, --units-only.
 void options_of_frames(Command command, cosim::SourceOptions& options);

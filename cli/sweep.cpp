@@ -61,8 +61,8 @@ std::string render_line(const SweepCommand& o, const SweptScene& s, const SweepP
   std::string line =
       fmt::format("kage render {} --config {} --degrade --size {}x{} --frames {} --order {}", kage::quoted(s.input),
                   explore::kPageConfig, p.width, p.height, s.scene->frames(), cosim::name_of(p.look.translucent));
-  line += fmt::format(" --sub-bits {} --samples {} --classes {} --seed {}", p.look.sub_bits, p.look.samples,
-                      p.look.classes, p.look.seed);
+  line += fmt::format(" --sub-bits {} --samples {} --classes {} --max-shading {} --seed {}", p.look.sub_bits,
+                      p.look.samples, p.look.classes, p.look.max_shading, p.look.seed);
   if (o.alpha != 1) line += fmt::format(" --alpha {}", o.alpha);
   if (o.cull) line += " --cull";
   if (o.max_fragments) line += fmt::format(" --max-fragments {}", *o.max_fragments);

@@ -218,12 +218,15 @@ class Band {
       if (as_polygon) polygon(i, role);
       if (as_polygon && !keeps_origins_) continue;
       spans_.each(p, y0_, y1_, [&](int y, SpanToken& s, int) {
-        if (keeps_origins_) at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
-        if (as_polygon) return;
-        s.normal_class = role.look.normal_class;
-        spans_.paint(p, y, s);
-        before_span(at(y), i, role);
-        writer_.op(s);
+        if (as_polygon) {
+          at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
+          return;
+        }
+        spans_.painted(p, y, s, [&](const SpanToken& part) {
+          before_span(at(y), i, role);
+          writer_.op(part);
+          if (keeps_origins_) at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
+        });
       });
     }
   }
@@ -252,15 +255,17 @@ class Band {
           for (const FragmentCut& cut : cuts) restrict_to(g_->cut_lines[cut.line], cut.front, y, xl, xr);
           if (xl >= xr) return;
           s.alpha = p.alpha;
-          spans_.paint(p, y, s);
-          const std::int64_t on = xl - s.xl;
-          s.z += on * s.dz;
-          for (std::size_t c = 0; c < 3; ++c) s.color[c] += static_cast<std::int32_t>(on) * s.dcolor[c];
-          s.xl = xl;
-          s.xr = xr;
-          before_span(at(y), k, role);
-          writer_.tp(s);
-          if (keeps_origins_) at(y).origins.translucent.push_back({k, TokenOrigin::kNone});
+          spans_.painted(p, y, s, [&](SpanToken part) {
+            const int from = std::max(part.xl, xl);
+            const int to = std::min(part.xr, xr);
+            if (from >= to) return;
+            const int on = from - part.xl;
+            for (std::size_t c = 0; c < 3; ++c) part.color[c] += on * part.dcolor[c];
+            PolygonSpans::restrict(part, from, to);
+            before_span(at(y), k, role);
+            writer_.tp(part);
+            if (keeps_origins_) at(y).origins.translucent.push_back({k, TokenOrigin::kNone});
+          });
         });
       }
     }

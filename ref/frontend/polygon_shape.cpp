@@ -40,7 +40,7 @@ PolygonShape ShapeFinder::find(const ScreenPolygon& p, bool drawn) {
   found_.clear();
   bool split = false;
   spans_.each(p, 0, g_->height, [&](int y, SpanToken& s, int winding) {
-    if (color) spans_.paint(p, y, s);
+    if (color && p.shade_cut < 0) spans_.paint(p, y, s);
     split = split || (!found_.empty() && found_.back().y == y);
     found_.push_back({y, s, winding});
   });
@@ -58,7 +58,8 @@ PolygonShape ShapeFinder::find(const ScreenPolygon& p, bool drawn) {
   bool color_fits = true;
   for (std::size_t c = 0; color && c < static_cast<std::size_t>(config_->channels); ++c)
     color_fits = color_fits && fits(color_plane(*g_, p, c), kColorPlaneBits);
-  compare(p, shape, color && color_fits);
+  compare(p, shape, color && color_fits && p.shade_cut < 0);
+  if (color && p.shade_cut >= 0 && shape.as_drawn == PolygonWay::polygon) shape.as_drawn = PolygonWay::cut;
   if (!color_fits && shape.as_drawn == PolygonWay::polygon) shape.as_drawn = PolygonWay::wide;
   return shape;
 }

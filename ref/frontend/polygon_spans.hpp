@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "contract/derived.hpp"
+#include "frontend/cut.hpp"
 #include "frontend/scan.hpp"
 #include "frontend/span_setup.hpp"
 #include "kage/geometry.hpp"
@@ -44,21 +45,67 @@ class PolygonSpans {
     });
   }
 
-  /// The colour of a span of the polygon on line y.
+  /// Call emit(span) for the parts of a span of the polygon on line y, from left to right, each with its colour and
+  /// class: one, or those of the shades of a diced polygon. Depth is that of the whole span, bit for bit.
+  template <class Emit>
+  void painted(const ScreenPolygon& p, int y, SpanToken& s, Emit emit) const {
+    if (p.shade_cut >= 0 && config_->smooth != 0) return diced(p, y, p.shade_cut, s, emit);
+    s.normal_class = span_class(p, *config_);
+    paint(p, y, s);
+    emit(s);
+  }
+
+  /// The colour of a span of a polygon on line y that is not diced.
   void paint(const ScreenPolygon& p, int y, SpanToken& s) const {
-    const auto channels = static_cast<std::size_t>(config_->channels);
-    for (std::size_t c = 0; c < channels; ++c) {
-      if (config_->smooth == 0) {
-        s.color[c] = p.color[c];
-        continue;
-      }
-      const SpanSetup::Ramp r = color_.at(color_plane(*g_, p, c), s.xl, y, s.xr - s.xl);
-      s.color[c] = static_cast<std::int32_t>(r.start);
-      s.dcolor[c] = static_cast<std::int32_t>(r.step);
+    for (std::size_t c = 0; c < channels(); ++c) {
+      s.color[c] = p.color[c];
+      if (config_->smooth != 0) ramp(color_plane(*g_, p, c), c, y, s);
     }
   }
 
+  /// Restricts a span to [xl, xr), with its depth there.
+  static void restrict(SpanToken& s, int xl, int xr) {
+    s.z += std::int64_t{xl - s.xl} * s.dz;
+    s.xl = xl;
+    s.xr = xr;
+  }
+
  private:
+  [[nodiscard]] std::size_t channels() const { return static_cast<std::size_t>(config_->channels); }
+
+  void ramp(const ScreenPlane& plane, std::size_t channel, int y, SpanToken& s) const {
+    const SpanSetup::Ramp r = color_.at(plane, s.xl, y, s.xr - s.xl);
+    s.color[channel] = static_cast<std::int32_t>(r.start);
+    s.dcolor[channel] = static_cast<std::int32_t>(r.step);
+  }
+
+  // The part of a span on this side of all cuts above `at`.
+  template <class Emit>
+  void diced(const ScreenPolygon& p, int y, std::int32_t at, const SpanToken& s, Emit emit) const {
+    if (at < 0) {
+      const Shade& shade = g_->shades[static_cast<std::size_t>(~at)];
+      SpanToken part = s;
+      part.normal_class = derived::has_table(*config_) ? static_cast<int>(shade.normal_class) : span_class(p, *config_);
+      for (std::size_t c = 0; c < channels(); ++c) ramp(g_->color_planes[shade.color_planes + c], c, y, part);
+      return emit(part);
+    }
+    const ShadeCut& cut = g_->shade_cuts[static_cast<std::size_t>(at)];
+    SpanToken front = s;
+    SpanToken behind = s;
+    int xl = s.xl;
+    int xr = s.xr;
+    restrict_to(cut.line, true, y, xl, xr);
+    if (xl < xr) restrict(front, xl, xr);
+    const bool front_is_left = xl == s.xl;
+    if (front_is_left && xl < xr) diced(p, y, cut.front, front, emit);
+    if (xl >= xr)
+      diced(p, y, cut.behind, s, emit);
+    else if (front_is_left && xr < s.xr)
+      restrict(behind, xr, s.xr), diced(p, y, cut.behind, behind, emit);
+    else if (!front_is_left)
+      restrict(behind, s.xl, xl), diced(p, y, cut.behind, behind, emit), diced(p, y, cut.front, front, emit);
+  }
+
   const FrameGeometry* g_;
   const Config* config_;
   SpanSetup depth_;

@@ -62,6 +62,8 @@ void check_look(const Look& look) {
   if (look.sub_bits < kLeastSubBits || look.sub_bits > kMostSubBits)
     throw Error(
         fmt::format("{} bits of a subpixel: there must be {} .. {}", look.sub_bits, kLeastSubBits, kMostSubBits));
+  if (look.max_shading < 0 || look.max_shading > 255)
+    throw Error(fmt::format("an error of shading of {}: it must be 0 .. 255", look.max_shading));
   if (look.darkening && !(*look.darkening >= 0 && *look.darkening <= 1)) throw Error("the darkening is not 0 .. 1");
   if (!(look.extrusion >= 1) || !std::isfinite(look.extrusion)) throw Error("the extrusion is not at least 1");
 }

@@ -16,13 +16,14 @@ FramePoints::FramePoints(std::vector<EyePoint> seen, const ScreenFaces& faces) :
 }
 
 FaceDrawer::FaceDrawer(const SceneFrame& frame, std::vector<EyePoint> points, const Config& config, const View& view,
-                       Clipper& clipper, const FaceShading& shading, FrameGeometry& out)
+                       Clipper& clipper, const FaceShading& shading, int max_shading, FrameGeometry& out)
     : frame_(&frame),
       config_(&config),
       clipper_(&clipper),
       shading_(&shading),
       out_(&out),
       faces_(view, clipper, out),
+      dicer_(view, faces_, shading, max_shading, out),
       points_(std::move(points), faces_),
       drawn_(frame.polygons.size()) {}
 
@@ -52,8 +53,8 @@ void FaceDrawer::draw(std::uint32_t index) {
   base.depth = depth_plane(corners, t, whole);
   for (std::size_t c = 0; c < 3; ++c)
     base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(shaded.mean[static_cast<int>(c)], 0.0, 255.0), 0));
-  if (config_->smooth != 0 && !shaded.same_color)
-    add_fan(base);
+  if (config_->smooth != 0 && !(shaded.same_color && is_linear(shaded)))
+    add_fan(base, shaded);
   else if (whole)
     faces_.add(base, snapped_);
   else
@@ -67,16 +68,24 @@ void FaceDrawer::undo(std::uint32_t index) {
   drawn_[index].count = 0;
 }
 
+// Whether one colour serves all of a face whose corners have one.
+bool FaceDrawer::is_linear(const FaceShading::Shaded& shaded) {
+  for (std::size_t i = 1; i + 1 < polygon_.size(); ++i)
+    if (dicer_.cuts(shaded, {polygon_[0], polygon_[i], polygon_[i + 1]})) return false;
+  return true;
+}
+
 // Colour is linear on the screen within a triangle, so a clipped triangle becomes a fan; all its pieces keep one depth
 // plane. The snap may bend an outline so far that every fan of it has overlaps. Such an outline is drawn whole, with
 // the colours of its largest triangle: it is only a few steps of the snap wide, and drawing each pixel once matters
 // more than its colours.
-void FaceDrawer::add_fan(const ScreenPolygon& base) {
+void FaceDrawer::add_fan(const ScreenPolygon& base, const FaceShading::Shaded& shaded) {
   const std::size_t n = polygon_.size();
   faces_.snap_outline(polygon_, snapped_);
   const auto add_piece = [&](std::size_t apex, std::size_t i, bool whole) {
-    const std::vector<ClipPoint> triangle{polygon_[apex], polygon_[(apex + i) % n], polygon_[(apex + i + 1) % n]};
     ScreenPolygon piece = base;
+    const std::vector<ClipPoint> triangle{polygon_[apex], polygon_[(apex + i) % n], polygon_[(apex + i + 1) % n]};
+    if (!whole) piece.shade_cut = dicer_.dice(shaded, {triangle[0], triangle[1], triangle[2]});
     piece.color_planes = static_cast<std::int32_t>(out_->color_planes.size());
     for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_.color_plane(triangle, c));
     if (whole)

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "geometry/dicer.hpp"
 #include "geometry/face_shading.hpp"
 #include "geometry/screen_faces.hpp"
 
@@ -25,7 +26,7 @@ class FaceDrawer {
  public:
   /// `points`: the frame's vertices, by eye_points().
   FaceDrawer(const SceneFrame& frame, std::vector<EyePoint> points, const Config& config, const View& view,
-             Clipper& clipper, const FaceShading& shading, FrameGeometry& out);
+             Clipper& clipper, const FaceShading& shading, int max_shading, FrameGeometry& out);
 
   /// Appends what is seen of the face to the polygons, and notes which they are.
   void draw(std::uint32_t index);
@@ -37,7 +38,8 @@ class FaceDrawer {
   [[nodiscard]] const std::vector<DrawnRange>& drawn() const { return drawn_; }  ///< by SceneFrame::polygons
 
  private:
-  void add_fan(const ScreenPolygon& base);
+  void add_fan(const ScreenPolygon& base, const FaceShading::Shaded& shaded);
+  [[nodiscard]] bool is_linear(const FaceShading::Shaded& shaded);
   [[nodiscard]] ScreenPlane depth_plane(std::span<const std::uint32_t> corners, const Triangle& t, bool whole) const;
 
   const SceneFrame* frame_;
@@ -46,6 +48,7 @@ class FaceDrawer {
   const FaceShading* shading_;
   FrameGeometry* out_;
   ScreenFaces faces_;
+  Dicer dicer_;
   FramePoints points_;
   std::vector<DrawnRange> drawn_;
   // Outline of the face being drawn:

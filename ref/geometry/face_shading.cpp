@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/common.hpp>
 
 #include "contract/derived.hpp"
@@ -10,47 +11,111 @@
 
 namespace kage {
 
+glm::dvec3 FaceShading::color_of(const Shaded& face, const SurfacePoint& at) const {
+  if (face.unlit) return Lighting::displayed_unlit(at.base, config_->channels == 1);
+  std::array<glm::dvec3, kMaxLights> arrive;
+  const std::span<glm::dvec3> of_lights = std::span(arrive).first(lighting_->lights());
+  const glm::dvec3 towards_eye = face.facing < 0 ? -at.normal : at.normal;
+  lighting_->arriving(at.point, towards_eye, face.side.sides, face.side.eye_side, of_lights);
+  glm::dvec3 light{0, 0, 0};
+  for (const glm::dvec3& one : of_lights) light += one;
+  return lighting_->displayed(towards_eye, at.base, light);
+}
+
+glm::dvec3 FaceShading::color_at(const Shaded& face, const glm::dvec3& place) const {
+  return color_of(face, face.surface.at(place));
+}
+
 FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint> corners) const {
-  const Polygon& face = frame_->polygons[index];
-  const auto outline = frame_->outline(face);
-  const Triangle& t = frame_->triangles[face.triangle];
+  const Triangle& t = frame_->triangles[frame_->polygons[index].triangle];
   const double facing = facing_of(*frame_, t, normal_of(*frame_, t));
-  const FaceSide side(*frame_, *lights_, index, facing > 0 ? 1 : facing < 0 ? -1 : 0);
-  Shaded s{!t.unlit && side.takes_shadow(*lights_), 0, {0, 0, 0}, false};
+  Shaded s{FaceSide(*frame_, *lights_, index,
+                    facing > 0   ? 1
+                    : facing < 0 ? -1
+                                 : 0),
+           FaceSurface(*frame_, index),
+           facing,
+           t.unlit,
+           false,
+           false,
+           false,
+           0,
+           {0, 0, 0},
+           false};
+  s.lit = !t.unlit && s.side.takes_shadow(*lights_);
+  s.classed = s.lit && (t.alpha == 255 || config_->translucency == 0);
   glm::dvec3 factor{1, 1, 1};
-  // A translucent face has no class, since TP knows none.
-  if (s.lit && (t.alpha == 255 || config_->translucency == 0)) {
-    const std::uint32_t number = table_->number(side);
+  if (s.classed) {
+    const std::uint32_t number = table_->number(s.side);
     s.lit = number > 0;
-    factor = table_->before_own_shadow(side, number);
+    factor = table_->before_own_shadow(s.side, number);
     if (derived::has_table(*config_)) s.normal_class = number;
   }
 
-  const bool by_place = lighting_->depends_on_place(side.sides, side.eye_side);
-  std::array<glm::dvec3, kMaxLights> arrive;
-  const std::span<glm::dvec3> of_lights = std::span(arrive).first(lighting_->lights());
+  const bool by_place = !t.unlit && lighting_->depends_on_place(s.side.sides, s.side.eye_side);
+  s.varies = by_place || !s.surface.alike();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     // More corners than a triangle's share one look.
-    const std::uint32_t look = t.shading[corners.size() == 3 ? i : 0];
-    const bool as_before = i > 0 && !by_place && (corners.size() > 3 || look == t.shading[i - 1]);
-    const ShadingVertex& v = frame_->shading[look];
-    if (as_before) {
+    const bool as_before = i > 0 && !by_place && (corners.size() > 3 || t.shading[i] == t.shading[i - 1]);
+    if (as_before)
       corners[i].color = corners[i - 1].color;
-    } else if (t.unlit) {
-      corners[i].color = Lighting::displayed_unlit(v.color, config_->channels == 1);
-    } else {
-      const glm::dvec3 towards_eye = facing < 0 ? -v.normal : v.normal;
-      lighting_->arriving(frame_->vertices[outline[i]], towards_eye, side.sides, side.eye_side, of_lights);
-      glm::dvec3 light{0, 0, 0};
-      for (const glm::dvec3& one : of_lights) light += one;
-      corners[i].color = glm::min(lighting_->displayed(towards_eye, v.color, light) * factor, glm::dvec3(255));
-    }
+    else
+      corners[i].color = glm::min(color_of(s, s.surface.corner(i)) * factor, glm::dvec3(255));
     s.mean += corners[i].color;
   }
   s.same_color =
       std::all_of(corners.begin(), corners.end(), [&](const ClipPoint& c) { return c.color == corners[0].color; });
   s.mean = s.same_color ? corners[0].color : s.mean / static_cast<double>(corners.size());
   return s;
+}
+
+FaceShading::Place FaceShading::place(const Shaded& face, const glm::dvec3& at) const {
+  const SurfacePoint surface = face.surface.at(at);
+  Place p{color_of(face, surface), {}, 0};
+  if (face.normal_class == 0) return p;
+  p.loss = table_->loss_at(face.side, surface);
+  p.normal_class = table_->nearest(p.loss);
+  const glm::dvec3 color = p.color * table_->before_own_shadow(face.side, p.normal_class);
+  if (std::max({color.x, color.y, color.z}) <= 255) return p;
+  double least = error_of(face, p, p.normal_class);
+  for (std::uint32_t number = 1; number <= table_->classes(); ++number)
+    if (const double error = error_of(face, p, number); error < least) {
+      least = error;
+      p.normal_class = number;
+    }
+  return p;
+}
+
+// In the full shadow of a light, or in none, where the colour that the face's own shadow asks for is above white. The
+// latter shows wherever the face does, the former only where something casts a shadow on it.
+double FaceShading::error_of(const Shaded& face, const Place& at, std::uint32_t number) const {
+  const glm::dvec3 factor = table_->before_own_shadow(face.side, number);
+  constexpr double kAlways = 16;
+  const glm::dvec3 lost = kAlways * (at.color - glm::min(at.color, 255.0 / factor));
+  return std::max({table_->error_of(face.side, at.loss, number), lost.x, lost.y, lost.z});
+}
+
+FaceShading::Part FaceShading::part(const Shaded& face, const std::array<const Place*, 3>& corners) const {
+  Part p{face.normal_class, {1, 1, 1}, 0};
+  if (!face.classed || !face.lit) return p;
+  if (face.normal_class > 0) {
+    double least = INFINITY;
+    for (const Place* of : corners) {
+      double sum = 0;
+      double more = 0;
+      for (const Place* at : corners) {
+        const double error = error_of(face, *at, of->normal_class);
+        sum += error;
+        if (of->normal_class != at->normal_class) more = std::max(more, error - error_of(face, *at, at->normal_class));
+      }
+      if (sum >= least * (1 - 0x1p-20)) continue;  // the first, but for rounding
+      least = sum;
+      p.normal_class = of->normal_class;
+      p.error = more;
+    }
+  }
+  p.factor = table_->before_own_shadow(face.side, face.normal_class > 0 ? p.normal_class : 1);
+  return p;
 }
 
 }  // namespace kage

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// A face's shading: the colours of its corners, and its class.
+// A face's shading: the colours of its corners and places, and its class.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 
 #include "geometry/light_table.hpp"
 #include "geometry/sampled_lights.hpp"
 #include "geometry/shade.hpp"
+#include "geometry/surface.hpp"
 #include "geometry/view.hpp"
 #include "kage/geometry.hpp"
 
@@ -20,9 +22,15 @@ class FaceShading {
               const LightTable& table)
       : frame_(&frame), config_(&config), lights_(&lights), lighting_(&lighting), table_(&table) {}
 
-  /// A face with the colours of its corners.
+  /// A face, seen from the eye, with the colours of its corners.
   struct Shaded {
+    FaceSide side;
+    FaceSurface surface;
+    double facing;               ///< below 0 where the eye sees its inside
+    bool unlit;                  ///< Triangle::unlit
+    bool varies;                 ///< colours follow from the place
     bool lit;                    ///< shadows take from its colour
+    bool classed;                ///< its class says how much: of no translucent face, since TP has none
     std::uint32_t normal_class;  ///< into the light table, or 0
     glm::dvec3 mean;             ///< of the corners' colours
     bool same_color;             ///< at all of them
@@ -33,7 +41,31 @@ class FaceShading {
   /// 255.
   Shaded shade(std::uint32_t index, std::span<ClipPoint> corners) const;
 
+  /// The colour of a place of the face, before its own shadow.
+  [[nodiscard]] glm::dvec3 color_at(const Shaded& face, const glm::dvec3& place) const;
+
+  /// A place of the face: its colour before its own shadow, what shadows take from it, and the class that asks for.
+  /// Where the face has no class of the table, the latter two are empty.
+  struct Place {
+    glm::dvec3 color;
+    LightTable::Loss loss;
+    std::uint32_t normal_class = 0;
+  };
+  [[nodiscard]] Place place(const Shaded& face, const glm::dvec3& at) const;
+
+  /// The class of a part of a face.
+  struct Part {
+    std::uint32_t normal_class;  ///< into the light table, or 0: the face's
+    glm::dvec3 factor;           ///< of color_at(), for its own shadow
+    double error;                ///< by how much more a corner's colour is off than with its own class, in steps of 255
+  };
+  /// The part between three places of the face: the class of one of them, that of least error for all.
+  [[nodiscard]] Part part(const Shaded& face, const std::array<const Place*, 3>& corners) const;
+
  private:
+  [[nodiscard]] double error_of(const Shaded& face, const Place& at, std::uint32_t number) const;
+  [[nodiscard]] glm::dvec3 color_of(const Shaded& face, const SurfacePoint& at) const;
+
   const SceneFrame* frame_;
   const Config* config_;
   const SampledLights* lights_;

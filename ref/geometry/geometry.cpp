@@ -146,7 +146,7 @@ FrameGeometry build(const Task& task, int width, int height, TranslucentOrder& o
   FrameGeometry out = empty_geometry(task, width, height, lights);
   table.put(out);
   Clipper clipper(view.near(), view.volume_end(), look.sub_bits);
-  FaceDrawer drawer(frame, std::move(points), config, view, clipper, shading, out);
+  FaceDrawer drawer(frame, std::move(points), config, view, clipper, shading, look.max_shading, out);
 
   const std::vector<std::uint32_t> turned_away = draw_all(task, drawer, out);
   out.drawn = static_cast<std::uint32_t>(out.polygons.size());

@@ -9,6 +9,7 @@
 #include "contract/derived.hpp"
 #include "geometry/kept_light.hpp"
 #include "geometry/view.hpp"
+#include "scene/space.hpp"
 
 namespace kage {
 namespace {
@@ -32,6 +33,15 @@ constexpr double kOfClass = 1.0 / 16;
 
 // A face whose class was not made for it is left so much at least by its own shadow.
 constexpr double kLeastLeft = 1.0 / 64;
+
+// A face is parted while shares within a part are further off their mean, root mean square, in steps of 255, and while
+// there are fewer parts than this of a face and of all.
+constexpr double kSpread = 1;
+constexpr std::size_t kPartsOfFace = 256;
+constexpr std::size_t kPartsOfAll = 4096;
+
+// An edge is longer than another by more than rounding.
+constexpr double kLonger = 1 + 0x1p-20;
 
 }  // namespace
 
@@ -59,8 +69,9 @@ LightTable::LightTable(const SceneFrame& frame, const Config& config, const Look
       lights_(&lights),
       lighting_(&lighting),
       self_shadow_(!look.fit || config.fsf > 0),
+      diced_(config.smooth > 0 && look.max_shading > 0),
       numbers_(lights.casting * kChannels),
-      class_(frame.polygons.size()) {
+      known_(frame.polygons.size()) {
   if (lights.casting == 0) return;
   WeightedVectors all;
   all.dimensions = numbers_;
@@ -77,7 +88,8 @@ LightTable::LightTable(const SceneFrame& frame, const Config& config, const Look
   const auto room = static_cast<std::size_t>(std::min(derived::most_class(config), look.classes));
   const Clusters clusters = clusters_of(all, room);
   middles_ = clusters.middles;
-  for (std::size_t i = 0; i < members.size(); ++i) *members[i].number = clusters.of[i] + 1;
+  for (std::size_t i = 0; i < members.size(); ++i)
+    if (members[i].number != nullptr) *members[i].number = clusters.of[i] + 1;
   round_middles();
   limit(members, clusters.of);
   measure(all, clusters.of, area);
@@ -100,19 +112,71 @@ void LightTable::add_sides(bool inner, WeightedVectors& all, std::vector<Member>
       for (const int eye_side : {1, -1}) {
         side.eye_side = eye_side;
         if ((eye_side < 0 && part.closed && !from_within && !inner) || !side.takes_shadow(*lights_)) continue;
-        Loss l = loss(side);
-        Member& m = members.emplace_back(Member{&class_[i][eye_side > 0 ? 0 : 1], l.area, l.brightest, {}});
-        for (std::size_t k = 0; k < lights_->casting; ++k) {
-          m.behind.push_back(shadows_itself(side) ? side.count(*lights_, k, -1) : 0);
-          const bool needed = side.count(*lights_, k, -1) > 0 || kept.may_be(i, part, eye_side, frame_->lights[k]);
-          if (needed) area += l.area * kChannels;
-          for (std::size_t c = 0; c < kChannels && !needed; ++c) l.weights[k * kChannels + c] *= kNeverKept;
+        Known& known = known_[i][eye_side > 0 ? 0 : 1];
+        known.needed = 0;
+        for (std::size_t k = 0; k < lights_->casting; ++k)
+          if (side.count(*lights_, k, -1) > 0 || kept.may_be(i, part, eye_side, frame_->lights[k]))
+            known.needed |= 1U << k;
+        const std::vector<Part> parts = parts_of(side);
+        for (const Part& one : parts) {
+          const Loss& l = one.loss;
+          Member& m =
+              members.emplace_back(Member{parts.size() == 1 ? &known.number : nullptr, l.area, l.brightest, {}});
+          for (std::size_t k = 0; k < lights_->casting; ++k) {
+            m.behind.push_back(shadows_itself(side) ? side.count(*lights_, k, -1) : 0);
+            if ((known.needed >> k & 1U) != 0) area += l.area * kChannels;
+          }
+          all.values.insert(all.values.end(), l.shares.begin(), l.shares.end());
+          all.weights.insert(all.weights.end(), l.weights.begin(), l.weights.end());
         }
-        all.values.insert(all.values.end(), l.shares.begin(), l.shares.end());
-        all.weights.insert(all.weights.end(), l.weights.begin(), l.weights.end());
+        extra_ += parts.size() - 1;
       }
     }
   }
+}
+
+// The part that is furthest off its mean goes first, so that few parts leave little error.
+std::vector<LightTable::Part> LightTable::parts_of(const FaceSide& side) const {
+  const FaceSurface surface(*frame_, side.polygon);
+  std::vector<SurfacePoint> outline;
+  for (std::size_t i = 0; i < surface.corners(); ++i) outline.push_back(surface.corner(i));
+  std::vector<Part> parts{{{}, loss(side, outline), 0}};
+  std::size_t count = 0;
+  const auto wide = [this](const Part& p) {
+    return p.loss.spread > kSpread * kSpread * p.loss.area * static_cast<double>(numbers_);
+  };
+  if (!diced_ || !derived::has_table(*config_) || !wide(parts[0])) return parts;
+  const auto part = [&](const SurfacePoint& a, const SurfacePoint& b, const SurfacePoint& c) {
+    const std::array<SurfacePoint, 3> corners{a, b, c};
+    return Part{corners, loss(side, corners), count++};
+  };
+  // Parts that chance puts in another order, where they are alike, would be others in another unit of length.
+  const auto less = [](const Part& a, const Part& b) {
+    const auto of_a = static_cast<float>(a.loss.spread);
+    const auto of_b = static_cast<float>(b.loss.spread);
+    return of_a != of_b ? of_a < of_b : a.number > b.number;
+  };
+  parts.clear();
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) parts.push_back(part(outline[0], outline[i], outline[i + 1]));
+  std::make_heap(parts.begin(), parts.end(), less);
+  while (wide(parts[0]) && parts.size() < kPartsOfFace && extra_ + parts.size() < kPartsOfAll) {
+    std::pop_heap(parts.begin(), parts.end(), less);
+    const std::array<SurfacePoint, 3> c = parts.back().corners;
+    parts.pop_back();
+    std::size_t longest = 0;  // the edge that begins there
+    for (std::size_t k = 1; k < 3; ++k)
+      if (squared(c[(k + 1) % 3].point - c[k].point) > kLonger * squared(c[(longest + 1) % 3].point - c[longest].point))
+        longest = k;
+    const SurfacePoint& from = c[longest];
+    const SurfacePoint& to = c[(longest + 1) % 3];
+    const SurfacePoint& third = c[(longest + 2) % 3];
+    const SurfacePoint middle = surface.at((from.point + to.point) * 0.5);
+    for (const Part& half : {part(from, middle, third), part(middle, to, third)}) {
+      parts.push_back(half);
+      std::push_heap(parts.begin(), parts.end(), less);
+    }
+  }
+  return parts;
 }
 
 // Lowers entries by which a member's own shadow would ask for a colour above white: what is lit must come out right.
@@ -171,70 +235,68 @@ bool LightTable::shadows_itself(const FaceSide& side) const {
   return self_shadow_ && frame_->triangles[frame_->polygons[side.polygon].triangle].alpha == 255;
 }
 
-LightTable::Loss LightTable::loss(const FaceSide& side) const {
-  const Polygon& face = frame_->polygons[side.polygon];
-  const auto outline = frame_->outline(face);
-  const Triangle& t = frame_->triangles[face.triangle];
+LightTable::Loss LightTable::loss(const FaceSide& side, std::span<const SurfacePoint> outline) const {
   const auto count = static_cast<double>(outline.size());
-  const glm::dvec3& apex = frame_->vertices[outline[0]];
   glm::dvec3 twice_area{0, 0, 0};
   for (std::size_t i = 1; i + 1 < outline.size(); ++i)
-    twice_area += glm::cross(frame_->vertices[outline[i]] - apex, frame_->vertices[outline[i + 1]] - apex);
-  const double area = glm::length(twice_area);
+    twice_area += glm::cross(outline[i].point - outline[0].point, outline[i + 1].point - outline[0].point);
+  const double area = outline.size() > 2 ? glm::length(twice_area) : 1;
 
-  std::vector<Place> corners;
-  Place middle{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+  SurfacePoint middle{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
   bool alike = true;
-  for (std::size_t i = 0; i < outline.size(); ++i) {
-    const std::uint32_t look = t.shading[outline.size() == 3 ? i : 0];
-    alike = alike && look == t.shading[0];
-    const ShadingVertex& v = frame_->shading[look];
-    corners.push_back({frame_->vertices[outline[i]], v.normal * static_cast<double>(side.eye_side), v.color});
-    middle.point += corners.back().point / count;
-    middle.normal += corners.back().normal;
-    middle.base += corners.back().base / count;
+  for (const SurfacePoint& corner : outline) {
+    alike = alike && corner.normal == outline[0].normal && corner.base == outline[0].base;
+    middle.point += corner.point / count;
+    middle.normal += corner.normal;
+    middle.base += corner.base / count;
   }
   const double length = glm::length(middle.normal);
   if (length > 0) middle.normal /= length;
 
-  Loss out{std::vector<double>(numbers_, 0), std::vector<double>(numbers_, 0), area};
+  Loss out{std::vector<double>(numbers_, 0), std::vector<double>(numbers_, 0), 0, area};
   // Asked for only where a shadow of the side's own is to be made up for.
   if (shadows_itself(side) &&
       std::any_of(side.sides.begin(), side.sides.end(), [&](std::int8_t s) { return s * side.eye_side < 0; })) {
     out.brightest = lit_color(side, middle);
-    for (const Place& corner : corners) out.brightest = glm::max(out.brightest, lit_color(side, corner));
+    for (const SurfacePoint& corner : outline) out.brightest = glm::max(out.brightest, lit_color(side, corner));
   }
   if (alike && !lighting_->depends_on_place(side.sides, side.eye_side)) {
     add_loss(side, middle, area, out);
   } else {
     add_loss(side, middle, area * kMiddleWeight, out);
-    for (const Place& corner : corners) add_loss(side, corner, area * (1 - kMiddleWeight) / count, out);
+    for (const SurfacePoint& corner : outline) add_loss(side, corner, area * (1 - kMiddleWeight) / count, out);
   }
-  for (std::size_t i = 0; i < numbers_; ++i)
+  const std::uint32_t needed = known(side).needed;
+  for (std::size_t i = 0; i < numbers_; ++i) {
     if (out.weights[i] > 0) out.shares[i] /= out.weights[i];
+    if ((needed >> (i / kChannels) & 1U) == 0) out.weights[i] *= kNeverKept;
+  }
   return out;
 }
 
 // The colour of a place with no shadow on it.
-glm::dvec3 LightTable::lit_color(const FaceSide& side, const Place& at) const {
+glm::dvec3 LightTable::lit_color(const FaceSide& side, const SurfacePoint& at) const {
   std::array<glm::dvec3, kMaxLights> arrive;
   const std::span<glm::dvec3> of = std::span(arrive).first(lighting_->lights());
-  lighting_->arriving(at.point, at.normal, side.sides, side.eye_side, of);
-  return lighting_->displayed(at.normal, at.base, std::accumulate(of.begin(), of.end(), glm::dvec3(0)));
+  const glm::dvec3 to_eye = at.normal * static_cast<double>(side.eye_side);
+  lighting_->arriving(at.point, to_eye, side.sides, side.eye_side, of);
+  return lighting_->displayed(to_eye, at.base, std::accumulate(of.begin(), of.end(), glm::dvec3(0)));
 }
 
 // At one place of a side, adds to `out` what its shadows take, times the weight of it.
-void LightTable::add_loss(const FaceSide& side, const Place& at, double weight, Loss& out) const {
+void LightTable::add_loss(const FaceSide& side, const SurfacePoint& at, double weight, Loss& out) const {
   std::array<glm::dvec3, kMaxLights> arrive;
-  lighting_->arriving(at.point, at.normal, side.sides, side.eye_side, std::span(arrive).first(lighting_->lights()));
+  const glm::dvec3 to_eye = at.normal * static_cast<double>(side.eye_side);
+  lighting_->arriving(at.point, to_eye, side.sides, side.eye_side, std::span(arrive).first(lighting_->lights()));
   const auto sum = [&](std::size_t first, std::size_t end) {
     return std::accumulate(arrive.begin() + static_cast<std::ptrdiff_t>(first),
                            arrive.begin() + static_cast<std::ptrdiff_t>(end), glm::dvec3(0));
   };
   const std::size_t casting = lights_->casting;
+  const std::uint32_t needed = known(side).needed;
   const glm::dvec3 kept = sum(0, casting);
   const glm::dvec3 others = sum(casting, lighting_->lights());
-  const auto displayed = [&](const glm::dvec3& light) { return lighting_->displayed(at.normal, at.base, light); };
+  const auto displayed = [&](const glm::dvec3& light) { return lighting_->displayed(to_eye, at.base, light); };
   const glm::dvec3 lit = displayed(others + kept);
 
   std::array<glm::dvec3, kMaxLights> taken;  // by each light's full shadow alone
@@ -267,18 +329,44 @@ void LightTable::add_loss(const FaceSide& side, const Place& at, double weight, 
       const double by_all = color * lights_->points_of(l);
       const double importance = weight * (by_all * by_all);
       const std::size_t to = l * kChannels + static_cast<std::size_t>(c);
-      out.shares[to] += importance * scale * share[l] / (1 + scale * own_shadow);
+      const double value = scale * share[l] / (1 + scale * own_shadow);
+      const double so_far = out.weights[to];
+      if (importance > 0 && so_far > 0 && (needed >> l & 1U) != 0) {
+        const double off = value - out.shares[to] / so_far;
+        out.spread += importance * (so_far / (so_far + importance)) * (off * off);
+      }
+      out.shares[to] += importance * value;
       out.weights[to] += importance;
     }
   }
 }
 
 std::uint32_t LightTable::number(const FaceSide& side) const {
-  const std::uint32_t known = class_[side.polygon][side.eye_side > 0 ? 0 : 1];
+  const std::uint32_t number_known = known(side).number;
   if (middles_.empty()) return 0;
-  if (known > 0 || !derived::has_table(*config_)) return std::max(known, 1U);
-  const Loss l = loss(side);
-  return nearest_middle(middles_, numbers_, l.shares.data(), l.weights.data()) + 1;
+  if (number_known > 0 || !derived::has_table(*config_)) return std::max(number_known, 1U);
+  const FaceSurface surface(*frame_, side.polygon);
+  std::vector<SurfacePoint> outline;
+  for (std::size_t i = 0; i < surface.corners(); ++i) outline.push_back(surface.corner(i));
+  return nearest(loss(side, outline));
+}
+
+LightTable::Loss LightTable::loss_at(const FaceSide& side, const SurfacePoint& place) const {
+  return middles_.empty() || !derived::has_table(*config_) ? Loss{} : loss(side, std::span(&place, 1));
+}
+
+std::uint32_t LightTable::nearest(const Loss& loss) const {
+  return nearest_middle(middles_, numbers_, loss.shares.data(), loss.weights.data()) + 1;
+}
+
+double LightTable::error_of(const FaceSide& side, const Loss& l, std::uint32_t number) const {
+  double most = 0;
+  for (std::size_t d = 0; d < numbers_; ++d) {
+    if ((known(side).needed >> (d / kChannels) & 1U) == 0) continue;
+    const double off = l.shares[d] - middles_[(number - 1) * numbers_ + d];
+    most = std::max(most, l.weights[d] * (off * off));
+  }
+  return std::sqrt(most);
 }
 
 glm::dvec3 LightTable::before_own_shadow(const FaceSide& side, std::uint32_t number) const {

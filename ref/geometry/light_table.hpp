@@ -13,6 +13,7 @@
 #include "geometry/clusters.hpp"
 #include "geometry/sampled_lights.hpp"
 #include "geometry/shade.hpp"
+#include "geometry/surface.hpp"
 #include "kage/geometry.hpp"
 
 namespace kage {
@@ -43,6 +44,27 @@ class LightTable {
   /// The class of a side that takes shadow, from 1; without a table all are in one. 0: there is none.
   [[nodiscard]] std::uint32_t number(const FaceSide& side) const;
 
+  /// What shadows take from places of a side: of each light and channel the share of a sample, and how much an error
+  /// there would count. That is by area, and the square of the colour that all samples would take.
+  struct Loss {
+    std::vector<double> shares;
+    std::vector<double> weights;
+    double spread = 0;  ///< weight times square of what the shares of places are off the mean
+    double area = 0;
+    glm::dvec3 brightest{0, 0, 0};  ///< colour of places with no shadow on them, if some points are behind the side
+  };
+  /// At one place of a side, of an area of 1. Empty without a table.
+  [[nodiscard]] Loss loss_at(const FaceSide& side, const SurfacePoint& place) const;
+
+  /// The class, from 1, of least error for a loss; of several the first.
+  [[nodiscard]] std::uint32_t nearest(const Loss& loss) const;
+
+  /// How far the colour of a place would be off in the full shadow of a light, in steps of 255, if this were its class:
+  /// at most of the lights that may be kept from the side.
+  [[nodiscard]] double error_of(const FaceSide& side, const Loss& loss, std::uint32_t number) const;
+
+  [[nodiscard]] std::uint32_t classes() const { return static_cast<std::uint32_t>(middles_.size() / numbers_); }
+
   /// A factor for each channel of a side's colour. The shadow that the side throws on itself counts the points behind
   /// it; what that leaves of the product is the colour.
   [[nodiscard]] glm::dvec3 before_own_shadow(const FaceSide& side, std::uint32_t number) const;
@@ -55,33 +77,34 @@ class LightTable {
   void put(FrameGeometry& out) const;
 
  private:
-  /// The share of a sample from a side, for each light and channel, and how much an error there would count: by the
-  /// area, and the square of the colour that all samples would take.
-  struct Loss {
-    std::vector<double> shares;
-    std::vector<double> weights;
-    double area = 0;
-    glm::dvec3 brightest{0, 0, 0};  // colour of its places with no shadow on them, if some points are behind it
+  /// A part of a side. All of it has no corners of its own.
+  struct Part {
+    std::array<SurfacePoint, 3> corners;
+    Loss loss;
+    std::size_t number;  // in the order in which they were made
   };
 
-  /// A side that is in the table, with what limits its class's entry.
+  /// A side, or a part of one, that is in the table, with what limits its class's entry.
   struct Member {
-    std::uint32_t* number;  // where its class is kept
+    std::uint32_t* number;  // where a whole side's class is kept
     double area;
     glm::dvec3 brightest;
     std::vector<int> behind;  // of each light that casts, the points that the side keeps from itself
   };
 
-  /// A place of a side: where light is worked out.
-  struct Place {
-    glm::dvec3 point;
-    glm::dvec3 normal;  // turned to the eye
-    glm::dvec3 base;
+  /// A side of a face.
+  struct Known {
+    std::uint32_t number = 0;    // of its class, or 0
+    std::uint32_t needed = ~0U;  // lights that may be kept from it, a bit each
   };
 
-  [[nodiscard]] Loss loss(const FaceSide& side) const;
-  [[nodiscard]] glm::dvec3 lit_color(const FaceSide& side, const Place& at) const;
-  void add_loss(const FaceSide& side, const Place& at, double weight, Loss& out) const;
+  [[nodiscard]] const Known& known(const FaceSide& side) const {
+    return known_[side.polygon][side.eye_side > 0 ? 0 : 1];
+  }
+  [[nodiscard]] Loss loss(const FaceSide& side, std::span<const SurfacePoint> outline) const;
+  [[nodiscard]] std::vector<Part> parts_of(const FaceSide& side) const;
+  [[nodiscard]] glm::dvec3 lit_color(const FaceSide& side, const SurfacePoint& at) const;
+  void add_loss(const FaceSide& side, const SurfacePoint& at, double weight, Loss& out) const;
   void add_sides(bool inner, WeightedVectors& all, std::vector<Member>& members, double& area);
   void round_middles();
   void limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of);
@@ -94,10 +117,12 @@ class LightTable {
   const SampledLights* lights_;
   const Lighting* lighting_;
   bool self_shadow_;             // every sample of a face that casts shadows it from behind
+  bool diced_;                   // faces have parts, with classes of their own
   std::size_t numbers_;          // of a class: casting lights times channels
   std::vector<double> middles_;  // of each class, a light's channels one after the other
   double error_ = 0;
-  std::vector<std::array<std::uint32_t, 2>> class_;  // of each polygon's outside and inside, or 0: not known
+  std::vector<std::array<Known, 2>> known_;  // of each polygon's outside and inside
+  std::size_t extra_ = 0;                    // parts beyond one of each side
 };
 
 }  // namespace kage

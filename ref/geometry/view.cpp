@@ -24,6 +24,11 @@ ClipPoint View::to_clip(const EyePoint& p) const {
   return {p.x / per_pixel_x_ + half_w_ * q, half_h_ * q - p.y / per_pixel_y_, q, p.z, {0, 0, 0}};
 }
 
+glm::dvec3 View::place(const ClipPoint& p) const {
+  const glm::dvec3 at = on_picture(p.sx / p.q, p.sy / p.q);
+  return camera_.eye + camera_.right * (at.x * p.q) + camera_.up * (at.y * p.q) + camera_.forward * p.w;
+}
+
 std::array<glm::dvec3, 4> View::near_corners() const {
   const double scale = camera_.perspective ? near_ : 1.0;
   const glm::dvec3 centre = camera_.eye + camera_.forward * near_;

@@ -44,8 +44,17 @@ class View {
   [[nodiscard]] EyePoint to_eye(const glm::dvec3& world) const { return kage::to_eye(camera_, world); }
   [[nodiscard]] ClipPoint to_clip(const EyePoint& p) const;
 
+  /// The place of a point before the division, in world space: to_clip() backwards. q must not be 0.
+  [[nodiscard]] glm::dvec3 place(const ClipPoint& p) const;
+
+  /// The point of the picture at (x, y), in pixels, as line() has it.
+  [[nodiscard]] glm::dvec3 on_picture(double x, double y) const {
+    return {(x - half_w_) * per_pixel_x_, (half_h_ - y) * per_pixel_y_, 1};
+  }
+
   /// w0, where depth begins and faces and volumes are cut: nothing that is seen lies nearer.
   [[nodiscard]] double near() const { return near_; }
+  [[nodiscard]] bool perspective() const { return camera_.perspective; }
   [[nodiscard]] int sub_bits() const { return sub_bits_; }
 
   /// The picture's corners at w0, in world space: everything seen lies between them and a surface.

@@ -96,6 +96,7 @@ FrameGeometry numbered_faces(const SceneFrame& frame, const Config& plain, const
     p.lit = false;
     p.normal_class = 0;
     p.color_planes = -1;
+    p.shade_cut = -1;
     for (unsigned c = 0; c < 3; ++c) p.color[c] = static_cast<std::uint8_t>(p.source >> (8 * c));
   }
   return g;

@@ -31,9 +31,10 @@ struct LookAxis {
   int most;
   int Look::*member;
 };
-constexpr std::array<LookAxis, 3> kLookAxes{{{"SUB_BITS", kLeastSubBits, kMostSubBits, &Look::sub_bits},
+constexpr std::array<LookAxis, 4> kLookAxes{{{"SUB_BITS", kLeastSubBits, kMostSubBits, &Look::sub_bits},
                                              {"SAMPLES", 1, kMaxSamples, &Look::samples},
-                                             {"CLASSES", 1, kMaxClasses, &Look::classes}}};
+                                             {"CLASSES", 1, kMaxClasses, &Look::classes},
+                                             {"MAX_SHADING", 0, 255, &Look::max_shading}}};
 
 const ParamInfo* parameter(std::string_view name) {
   const auto found = std::find_if(kParams.begin(), kParams.end(), [&](const ParamInfo& p) { return p.name == name; });
@@ -91,6 +92,10 @@ void set_size(SweepPoint& p, const std::string& value) {
 void set_look(SweepPoint& p, const LookAxis& axis, const std::string& value) {
   const int n = p.look.*axis.member = number_of(axis.name, value, axis.least, axis.most);
   if (axis.member == &Look::samples && n > 1) need_counts(p);
+  if (axis.member == &Look::max_shading && n > 0 && p.config.smooth == 0) {
+    p.config.smooth = 1;
+    p.config.color_frac = 8;
+  }
   if (axis.member != &Look::classes) return;
   need_counts(p);
   p.config.class_bits = std::max(2, static_cast<int>(std::bit_width(unsigned(n))));
@@ -131,6 +136,8 @@ std::string value_of(const SweepPoint& p, std::string_view axis) {
   // A table tells as many classes apart as its bits do; without one there are none.
   if (axis == "CLASSES")
     return std::to_string(derived::has_table(p.config) ? std::min(p.look.classes, derived::most_class(p.config)) : 0);
+  // Without smooth colour nothing is diced.
+  if (axis == "MAX_SHADING") return std::to_string(p.config.smooth > 0 ? p.look.max_shading : 0);
   if (axis == "SUB_BITS") return std::to_string(p.look.sub_bits);
   return std::to_string(p.config.*parameter(axis)->member);
 }
@@ -231,9 +238,9 @@ void add_corners(const SweepPoint& base, const Needs& needs, std::vector<SweepPo
 std::string text_of(const SweepPoint& p) {
   std::string text = fmt::format("{}x{}", p.width, p.height);
   for (const ParamInfo& info : kParams) text += fmt::format(" {}={}", info.name, p.config.*info.member);
-  return text + fmt::format(" SUB_BITS={} SAMPLES={} CLASSES={} ORDER={} SEED={} CULL={}", p.look.sub_bits,
-                            p.look.samples, p.look.classes, static_cast<int>(p.look.translucent), p.look.seed,
-                            p.look.cull ? 1 : 0);
+  return text + fmt::format(" SUB_BITS={} SAMPLES={} CLASSES={} MAX_SHADING={} ORDER={} SEED={} CULL={}",
+                            p.look.sub_bits, p.look.samples, p.look.classes, p.look.max_shading,
+                            static_cast<int>(p.look.translucent), p.look.seed, p.look.cull ? 1 : 0);
 }
 
 int samples_of(const SweepPoint& p) { return p.look.samples >> p.config.count_bits == 0 ? p.look.samples : 1; }

@@ -24,6 +24,7 @@ report::Json look_json(const SweepPoint& p) {
           {"samples", p.look.samples},
           {"samples_drawn", samples_of(p)},
           {"classes", p.look.classes},
+          {"max_shading", p.look.max_shading},
           {"order", cosim::name_of(p.look.translucent)},
           {"seed", p.look.seed}};
 }

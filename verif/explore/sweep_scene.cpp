@@ -166,7 +166,7 @@ RayPixel ray_pixel(const RayFrame& f, int x, int y, bool lights) {
 }  // namespace
 
 std::string_view name_of(ErrorSource source) {
-  constexpr std::array<std::string_view, kErrorSources.size()> kNames{"snapping", "depth",   "color",
+  constexpr std::array<std::string_view, kErrorSources.size()> kNames{"snapping", "depth",   "color", "shading",
                                                                       "samples",  "classes", "order"};
   return kNames[static_cast<std::size_t>(source)];
 }
@@ -243,6 +243,7 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   out.look.sub_bits = kMostSubBits;
   out.look.samples = kMaxSamples;
   out.look.classes = kMaxClasses;
+  out.look.max_shading = 1;
   out.look.translucent = TranslucentWay::exact;
   return out;
 }
@@ -261,9 +262,13 @@ SweepPoint SweepScene::alone(const SweepPoint& point, ErrorSource source) const 
       break;
     case ErrorSource::color:
       c.channels = std::min(c.channels, of.channels);
-      c.smooth = std::min(c.smooth, of.smooth);
-      c.color_frac = c.smooth > 0 ? of.color_frac : 0;
+      if (c.smooth > 0 && of.smooth > 0) c.color_frac = of.color_frac;
       c.shade_frac = of.shade_frac;
+      break;
+    case ErrorSource::shading:
+      c.smooth = std::min(c.smooth, of.smooth);
+      if (c.smooth == 0) c.color_frac = 0;
+      out.look.max_shading = point.look.max_shading;
       break;
     case ErrorSource::samples:
       if (c.dsf_bits == 0) break;

@@ -22,9 +22,10 @@
 namespace kage::explore {
 
 /// Sources of a picture's error.
-enum class ErrorSource : std::uint8_t { snapping, depth, color, samples, classes, order };
+enum class ErrorSource : std::uint8_t { snapping, depth, color, shading, samples, classes, order };
 inline constexpr std::array kErrorSources{ErrorSource::snapping, ErrorSource::depth,   ErrorSource::color,
-                                          ErrorSource::samples,  ErrorSource::classes, ErrorSource::order};
+                                          ErrorSource::shading,  ErrorSource::samples, ErrorSource::classes,
+                                          ErrorSource::order};
 std::string_view name_of(ErrorSource source);
 
 /// Answers of exact rays through the unsnapped scene at a pixel.

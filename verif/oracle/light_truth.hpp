@@ -97,6 +97,17 @@ inline std::vector<std::uint32_t> seen_polygons(const FrameGeometry& g, const Co
   return seen;
 }
 
+/// The class of a pixel that shows a polygon: of a diced one by the sides of its cuts on which the pixel lies.
+inline std::uint32_t class_at(const FrameGeometry& g, const Config& config, const ScreenPolygon& p, int x, int y) {
+  if (config.smooth == 0 || p.shade_cut < 0) return p.normal_class;
+  std::int32_t at = p.shade_cut;
+  while (at >= 0) {
+    const ShadeCut& cut = g.shade_cuts[static_cast<std::size_t>(at)];
+    at = cut.line.a * x + cut.line.b * y + cut.line.c >= 0 ? cut.front : cut.behind;
+  }
+  return g.shades[static_cast<std::size_t>(~at)].normal_class;
+}
+
 /// The picture as docs/stream.md has it, from pictures without any counter or table: colours without shadow, the
 /// polygon of each pixel, and the shadow of each sample by itself.
 inline std::vector<std::uint32_t> expected_picture(const FrameGeometry& g, const Config& config) {
@@ -108,13 +119,15 @@ inline std::vector<std::uint32_t> expected_picture(const FrameGeometry& g, const
   for (std::size_t i = 0; i < picture.size(); ++i) {
     if (seen[i] == ~0U) continue;
     const ScreenPolygon& p = g.polygons[seen[i]];
-    if (config.class_bits > 1 ? p.normal_class == 0 : !p.lit) continue;
+    const std::size_t width = static_cast<std::size_t>(g.width);
+    const std::uint32_t of_class = class_at(g, config, p, static_cast<int>(i % width), static_cast<int>(i / width));
+    if (config.class_bits > 1 ? of_class == 0 : !p.lit) continue;
     picture[i] = 0;
     for (unsigned c = 0; c < 3; ++c) {
       std::int64_t keep = std::int64_t{1} << config.shade_frac;
       for (std::size_t l = 0; l < static_cast<std::size_t>(config.lights); ++l)
         keep -= std::int64_t{counts[i][l]} *
-                (config.class_bits > 1 ? g.shares[(p.normal_class - 1) * static_cast<std::size_t>(config.lights) + l][c]
+                (config.class_bits > 1 ? g.shares[(of_class - 1) * static_cast<std::size_t>(config.lights) + l][c]
                                        : g.shade);
       keep = std::max<std::int64_t>(keep, 0);
       const std::int64_t v = unshadowed[i] >> (8 * c) & 255U;

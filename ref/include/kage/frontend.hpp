@@ -58,7 +58,7 @@ enum class PolygonWay : std::uint8_t {
   crossings,  ///< a line crosses its outline more than twice, or has several spans of it
   wide,       ///< a slope of its depth or colour has more bits than its field
   rounded,    ///< the front end would make other spans: start or step of some are clamped
-  cut,        ///< of a translucent fragment that lines part from others
+  cut,        ///< lines part it: a translucent fragment from others, or what is diced (FrameGeometry::shade_cuts)
   words,      ///< its spans are no more words
   active,     ///< more polygons at once than ACTIVE
   place,      ///< more polygons of its volume than a place can count

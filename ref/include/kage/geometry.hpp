@@ -61,6 +61,7 @@ struct ScreenPolygon {
   ScreenPlane depth;                    ///< in depth steps
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
+  std::int32_t shade_cut = -1;          ///< the first that parts it, in FrameGeometry::shade_cuts; -1: it is not diced
   /// Eye and some light that casts shadows are on the same side of it, and it is not Triangle::unlit.
   bool lit = false;
   std::uint32_t normal_class = 0;  ///< into the light table, from 1; 0 if it is not lit or there is no table
@@ -74,6 +75,20 @@ struct CutLine {
   std::int64_t a = 0;  ///< by x
   std::int64_t b = 0;  ///< by y
   std::int64_t c = 0;  ///< at pixel (0, 0)
+};
+
+/// A cut of a drawn polygon whose colour is not linear enough (Look::max_shading). Cuts are a tree, the ends of which
+/// are shades. They part colours and classes alone: outline, depth and shadows stay those of the whole polygon.
+struct ShadeCut {
+  CutLine line;             ///< that parts the pixels
+  std::int32_t front = 0;   ///< of those before the line: a further cut, or ~ of a number in FrameGeometry::shades
+  std::int32_t behind = 0;  ///< of the others, likewise
+};
+
+/// Colour and class of a part of a diced polygon.
+struct Shade {
+  std::uint32_t color_planes = 0;  ///< first of three in FrameGeometry::color_planes
+  std::uint32_t normal_class = 0;  ///< as ScreenPolygon::normal_class
 };
 
 /// A fragment of a translucent face: of the face's polygons what lies on the given sides of lines. The fragments of a
@@ -167,6 +182,8 @@ struct FrameGeometry {
   std::vector<ScreenPolygon> polygons;
   std::uint32_t drawn = 0;                       ///< number of the opaque drawn ones
   std::vector<ScreenPlane> color_planes;         ///< value in units of an 8-bit colour
+  std::vector<ShadeCut> shade_cuts;              ///< of all diced polygons
+  std::vector<Shade> shades;                     ///< of all diced polygons
   std::vector<VolumeFace> volume_faces;          ///< of all volumes
   std::vector<NearEdge> near_edges;              ///< of all volumes
   std::vector<ShadowVolume> volumes;             ///< in order of their samples
@@ -221,6 +238,9 @@ struct Look {
   int samples = 15;                                    ///< of an area light, 1 .. kMaxSamples; 1 without COUNT_BITS
   std::uint64_t seed = 1;                              ///< of the samples' pattern
   int classes = kMaxClasses;  ///< most that a light table is to tell apart, 1 .. kMaxClasses; fewer if it has no room
+  /// With SMOOTH, a face is diced where colours between its corners are further from light at the pixel, in steps of
+  /// 255: 1 .. 255. 0: none is.
+  int max_shading = 2;
   /// Bits of a snapped coordinate's fraction, kLeastSubBits .. kMostSubBits: positions are rounded half up to
   /// 2^-sub_bits pixel. They stay 16.8 fixed point; below 8, their last bits are 0.
   int sub_bits = kMostSubBits;

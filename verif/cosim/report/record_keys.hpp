@@ -34,6 +34,7 @@ void keys(V& v, Of<OptionsRecord>) {
   v("cull", &R::cull);
   v("samples", &R::samples);
   v("classes", &R::classes);
+  v("max_shading", &R::max_shading);
   v("sub_bits", &R::sub_bits);
 }
 

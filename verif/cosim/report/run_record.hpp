@@ -33,6 +33,7 @@ struct OptionsRecord {
   bool cull = false;
   int samples = 0;
   int classes = 0;
+  int max_shading = 0;
   int sub_bits = 0;
 
   bool operator==(const OptionsRecord&) const = default;

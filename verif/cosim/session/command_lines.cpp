@@ -50,6 +50,7 @@ void pictures(Line& line, const SourceOptions& o) {
   if (o.max_fragments) line.option("--max-fragments", fmt::to_string(*o.max_fragments), std::string());
   line.option("--samples", o.samples, usual.samples);
   line.option("--classes", o.classes, usual.classes);
+  line.option("--max-shading", o.max_shading, usual.max_shading);
   line.option("--sub-bits", o.sub_bits, usual.sub_bits);
   line.option("--seed", fmt::to_string(o.seed), std::string());
 }

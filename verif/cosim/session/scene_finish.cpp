@@ -31,6 +31,7 @@ report::OptionsRecord options_of(const CosimOptions& o, Level level) {
           .cull = o.cull,
           .samples = o.samples,
           .classes = o.classes,
+          .max_shading = o.max_shading,
           .sub_bits = o.sub_bits};
 }
 

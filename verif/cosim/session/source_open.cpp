@@ -66,6 +66,7 @@ DrawOptions draw_options(const SourceOptions& options) {
   draw.look.samples = options.samples;
   draw.look.seed = options.seed;
   draw.look.classes = options.classes;
+  draw.look.max_shading = options.max_shading;
   draw.look.sub_bits = options.sub_bits;
   draw.look.cull = options.cull;
   draw.look.fit = options.degrade;
@@ -105,6 +106,7 @@ void Source::open_random(const SourceOptions& options, verif::Manner manner) {
   refuse(options.max_fragments.has_value(), "--max-fragments", "have no faces to be put in order");
   refuse(options.samples != usual.samples, "--samples", "have light samples of their own");
   refuse(options.classes != usual.classes, "--classes", "have light tables of their own");
+  refuse(options.max_shading != usual.max_shading, "--max-shading", "have no faces to be cut");
   refuse(options.sub_bits != usual.sub_bits, "--sub-bits", "have no positions to be rounded");
   refuse(options.cull, "--cull", "have no faces to be left out");
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
@@ -127,6 +129,8 @@ void Source::open_stream(const SourceOptions& options) {
     throw Error(fmt::format("{}: --order: a stream has its own order", options.input));
   if (options.samples != SourceOptions{}.samples || options.classes != SourceOptions{}.classes)
     throw Error(fmt::format("{}: --samples, --classes: only a scene takes them, and this is a stream", options.input));
+  if (options.max_shading != SourceOptions{}.max_shading)
+    throw Error(fmt::format("{}: --max-shading: only a scene takes it, and this is a stream", options.input));
   if (options.sub_bits != SourceOptions{}.sub_bits)
     throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));

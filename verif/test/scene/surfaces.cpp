@@ -161,6 +161,7 @@ TEST_CASE("no light and no shadow touches what is unlit, in any configuration; i
       }();
       for (std::uint32_t k = 0; k < numbered.drawn; ++k) {
         numbered.polygons[k].color_planes = -1;
+        numbered.polygons[k].shade_cut = -1;
         for (unsigned c = 0; c < 3; ++c) numbered.polygons[k].color[c] = static_cast<std::uint8_t>(k >> (8 * c));
       }
       const std::vector<std::uint32_t> seen = draw(numbered, spans);

@@ -93,7 +93,8 @@ struct SourceOptions {
   bool allow_outside = false;  ///< files that a scene's file names may lie outside its folder
   std::optional<std::uint64_t> max_fragments;  ///< that the order of translucent faces may cut; none: order.hpp's
   int samples = Look{}.samples;                ///< of a light that is no point
-  int classes = Look{}.classes;                ///< of normals
+  int classes = Look{}.classes;                ///< that a light table tells apart
+  int max_shading = Look{}.max_shading;        ///< past which faces are diced, in steps of 255; 0: never
   int sub_bits = Look{}.sub_bits;              ///< of snapped positions
   Level level = Level::spans;                  ///< of the frames that are made
   std::string level_option;                    ///< by which a person asked for `level`, for messages; empty: no one did

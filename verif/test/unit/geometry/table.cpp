@@ -266,7 +266,8 @@ TEST_CASE("a face takes shadow where some sample of the light is before it, and 
       const auto behind =
           std::count_if(points.begin(), points.end(), [](const LightPoint& p) { return p.position.z < 0; });
       REQUIRE(behind > 0);
-      const double share = std::ldexp(class_bits > 1 ? g.shares[0][0] : g.shade, -c.shade_frac);
+      const double share =
+          std::ldexp(class_bits > 1 ? g.shares[g.polygons[0].normal_class - 1][0] : g.shade, -c.shade_frac);
       double light = 0;  // at the corners, whose mean the face has
       for (const glm::dvec3& at : f.vertices)
         for (const LightPoint& p : points)

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "geometry/dicer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace kage {
+namespace {
+
+// A part whose edges are all shorter, in pixels, has no more pixels to gain; and none to speak of by classes, which a
+// table of a few tells apart along many lines.
+constexpr double kLeastEdge = 2;
+constexpr double kLeastClassEdge = 16;
+
+// Light is looked at every so many pixels at most, and at so many places along the longer side of a part.
+constexpr int kMostStep = 4;
+constexpr int kPlaces = 8;
+
+// An edge is longer than another by more than rounding: so a scene is diced alike in any unit of length.
+constexpr double kLonger = 1 + 0x1p-20;
+
+// No frame has more shades: it would be noise.
+constexpr std::size_t kMostShades = std::size_t{1} << 20;
+
+}  // namespace
+
+std::uint32_t Dicer::add(const FaceShading::Shaded& face, const ClipPoint& p) {
+  Corner& c = corners_.emplace_back(Corner{p.sx / p.q, p.sy / p.q, p, shading_->place(face, view_->place(p))});
+  c.clip.color = c.place.color;
+  return static_cast<std::uint32_t>(corners_.size() - 1);
+}
+
+Dicer::Corners Dicer::begin(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
+  corners_.clear();
+  Corners t{};
+  for (std::size_t i = 0; i < 3; ++i) t[i] = add(face, triangle[i]);
+  return t;
+}
+
+// The point of a triangle that has these parts of its corners on the screen. 1 / q is linear there (perspective), or w
+// (parallel).
+ClipPoint Dicer::between(const Corners& t, const glm::dvec3& part) const {
+  const Corner& a = at(t[0]);
+  const Corner& b = at(t[1]);
+  const Corner& c = at(t[2]);
+  ClipPoint p;
+  if (view_->perspective())
+    p.q = p.w = 1 / (part[0] / a.clip.q + part[1] / b.clip.q + part[2] / c.clip.q);
+  else
+    p.w = a.clip.w * part[0] + b.clip.w * part[1] + c.clip.w * part[2];
+  p.sx = (a.x * part[0] + b.x * part[1] + c.x * part[2]) * p.q;
+  p.sy = (a.y * part[0] + b.y * part[1] + c.y * part[2]) * p.q;
+  return p;
+}
+
+Dicer::Edge Dicer::longest_edge(const Corners& t) const {
+  Edge edge{0, 0};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Corner& a = at(t[k]);
+    const Corner& b = at(t[(k + 1) % 3]);
+    const double length = std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
+    if (length > edge.length * kLonger) edge = {k, length};
+  }
+  return edge;
+}
+
+FaceShading::Part Dicer::part_of(const FaceShading::Shaded& face, const Corners& t) const {
+  return shading_->part(face, {&at(t[0]).place, &at(t[1]).place, &at(t[2]).place});
+}
+
+// Whether colour between the corners is too far from light somewhere in the picture.
+bool Dicer::off(const FaceShading::Shaded& face, const Corners& t) const {
+  const Corner& a = at(t[0]);
+  const Corner& b = at(t[1]);
+  const Corner& c = at(t[2]);
+  const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+  const auto [left, right] = std::minmax({a.x, b.x, c.x});
+  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
+  const double x0 = std::max(left, 0.0);
+  const double x1 = std::min(right, static_cast<double>(out_->width));
+  const double y0 = std::max(top, 0.0);
+  const double y1 = std::min(bottom, static_cast<double>(out_->height));
+  if (!(x0 < x1 && y0 < y1) || !(std::abs(area) > 0)) return false;
+  const auto is_off = [&](const glm::dvec3& part) {
+    const ClipPoint p = between(t, part);
+    const double x = p.sx / p.q;
+    const double y = p.sy / p.q;
+    if (!(x >= x0 && x <= x1 && y >= y0 && y <= y1)) return false;
+    const glm::dvec3 linear = a.clip.color * part[0] + b.clip.color * part[1] + c.clip.color * part[2];
+    const glm::dvec3 d = glm::abs(shading_->color_at(face, view_->place(p)) - linear);
+    return std::max({d.x, d.y, d.z}) > max_shading_;
+  };
+  constexpr double kThird = 1.0 / 3;
+  for (const glm::dvec3& part :
+       {glm::dvec3{kThird, kThird, kThird}, glm::dvec3{0.5, 0.5, 0}, glm::dvec3{0, 0.5, 0.5}, glm::dvec3{0.5, 0, 0.5}})
+    if (is_off(part)) return true;
+  const double step = std::clamp(std::floor(std::max(x1 - x0, y1 - y0) / kPlaces), 2.0, double{kMostStep});
+  for (double y = std::ceil(y0 / step) * step; y < y1; y += step)
+    for (double x = std::ceil(x0 / step) * step; x < x1; x += step) {
+      const double v = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / area;
+      const double w = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
+      if (v >= 0 && w >= 0 && v + w <= 1 && is_off({1 - v - w, v, w})) return true;
+    }
+  return false;
+}
+
+bool Dicer::needs_cut(const FaceShading::Shaded& face, const Corners& t) const {
+  const double length = longest_edge(t).length;
+  if (length < kLeastEdge || out_->shades.size() >= kMostShades) return false;
+  return off(face, t) || (length >= kLeastClassEdge && part_of(face, t).error > max_shading_);
+}
+
+std::int32_t Dicer::shade(const FaceShading::Shaded& face, const Corners& t) {
+  const FaceShading::Part part = part_of(face, t);
+  triangle_.clear();
+  for (const std::uint32_t i : t) {
+    triangle_.push_back(at(i).clip);
+    triangle_.back().color = glm::min(triangle_.back().color * part.factor, glm::dvec3(255));
+  }
+  out_->shades.push_back({static_cast<std::uint32_t>(out_->color_planes.size()), part.normal_class});
+  for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_->color_plane(triangle_, c));
+  return ~static_cast<std::int32_t>(out_->shades.size() - 1);
+}
+
+std::int32_t Dicer::part(const FaceShading::Shaded& face, const Corners& t) {
+  return needs_cut(face, t) ? cut(face, t) : shade(face, t);
+}
+
+// From the middle of the longest edge to the corner across it.
+std::int32_t Dicer::cut(const FaceShading::Shaded& face, const Corners& t) {
+  const std::size_t longest = longest_edge(t).from;
+  const std::size_t next = (longest + 1) % 3;
+  const std::uint32_t third = t[(longest + 2) % 3];
+  glm::dvec3 half{0, 0, 0};
+  half[static_cast<int>(longest)] = half[static_cast<int>(next)] = 0.5;
+  const std::uint32_t middle = add(face, between(t, half));
+  const auto on_picture = [this](std::uint32_t i) { return view_->on_picture(at(i).x, at(i).y); };
+  glm::dvec3 line = glm::cross(on_picture(third), on_picture(middle));
+  if (glm::dot(line, on_picture(t[longest])) < 0) line = -line;
+  const std::size_t number = out_->shade_cuts.size();
+  out_->shade_cuts.push_back({view_->line(line)});
+  const std::int32_t front = part(face, {t[longest], middle, third});
+  const std::int32_t behind = part(face, {middle, t[next], third});
+  out_->shade_cuts[number].front = front;
+  out_->shade_cuts[number].behind = behind;
+  return static_cast<std::int32_t>(number);
+}
+
+bool Dicer::cuts(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
+  return max_shading_ > 0 && face.varies && needs_cut(face, begin(face, triangle));
+}
+
+std::int32_t Dicer::dice(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
+  if (max_shading_ == 0 || !face.varies) return -1;
+  const Corners t = begin(face, triangle);
+  return needs_cut(face, t) ? cut(face, t) : -1;
+}
+
+}  // namespace kage

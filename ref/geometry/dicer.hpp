@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Dicing: a drawn triangle's colour in parts, each linear on the screen, so that all of them are near the light.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "geometry/face_shading.hpp"
+#include "geometry/screen_faces.hpp"
+
+namespace kage {
+
+/// Parts triangles of the picture by halves of their longest edges until colour is within Look::max_shading of light,
+/// or an edge is a few pixels long. Light is looked at on a grid of pixels, so what is narrower than its step may be
+/// missed. Refers to what it is made of.
+class Dicer {
+ public:
+  Dicer(const View& view, const ScreenFaces& faces, const FaceShading& shading, int max_shading, FrameGeometry& out)
+      : view_(&view), faces_(&faces), shading_(&shading), max_shading_(max_shading), out_(&out) {}
+
+  /// Dices a triangle of a face between three points that clipping has left, with the colours of these.
+  /// @return ScreenPolygon::shade_cut: the first cut, or -1 where none is needed
+  std::int32_t dice(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
+
+  /// Whether dice() would cut it.
+  [[nodiscard]] bool cuts(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
+
+ private:
+  /// A corner on the screen, with the colour of its place.
+  struct Corner {
+    double x;
+    double y;
+    ClipPoint clip;
+    FaceShading::Place place;
+  };
+  using Corners = std::array<std::uint32_t, 3>;  // into corners_
+
+  [[nodiscard]] const Corner& at(std::uint32_t corner) const { return corners_[corner]; }
+  [[nodiscard]] Corners begin(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
+  std::uint32_t add(const FaceShading::Shaded& face, const ClipPoint& p);
+  [[nodiscard]] ClipPoint between(const Corners& t, const glm::dvec3& part) const;
+  /// The edge that begins at a corner and is the longest, and its length.
+  struct Edge {
+    std::size_t from;
+    double length;
+  };
+  [[nodiscard]] Edge longest_edge(const Corners& t) const;
+  [[nodiscard]] bool off(const FaceShading::Shaded& face, const Corners& t) const;
+  [[nodiscard]] bool needs_cut(const FaceShading::Shaded& face, const Corners& t) const;
+  [[nodiscard]] FaceShading::Part part_of(const FaceShading::Shaded& face, const Corners& t) const;
+  std::int32_t part(const FaceShading::Shaded& face, const Corners& t);
+  std::int32_t cut(const FaceShading::Shaded& face, const Corners& t);
+  std::int32_t shade(const FaceShading::Shaded& face, const Corners& t);
+
+  const View* view_;
+  const ScreenFaces* faces_;
+  const FaceShading* shading_;
+  int max_shading_;
+  FrameGeometry* out_;
+  std::vector<Corner> corners_;  // of the triangle at hand
+  std::vector<ClipPoint> triangle_;
+};
+
+}  // namespace kage
