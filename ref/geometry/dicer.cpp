@@ -27,8 +27,8 @@ constexpr std::size_t kMostShades = std::size_t{1} << 20;
 }  // namespace
 
 std::uint32_t Dicer::add(const FaceShading::Shaded& face, const ClipPoint& p) {
-  Corner& c = corners_.emplace_back(Corner{p.sx / p.q, p.sy / p.q, p, shading_->place(face, view_->place(p))});
-  c.clip.color = c.place.color;
+  Corner& c = corners_.emplace_back(Corner{p.sx / p.q, p.sy / p.q, p, std::nullopt});
+  c.clip.color = shading_->color_at(face, view_->place(p));
   return static_cast<std::uint32_t>(corners_.size() - 1);
 }
 
@@ -66,8 +66,14 @@ Dicer::Edge Dicer::longest_edge(const Corners& t) const {
   return edge;
 }
 
-FaceShading::Part Dicer::part_of(const FaceShading::Shaded& face, const Corners& t) const {
-  return shading_->part(face, {&at(t[0]).place, &at(t[1]).place, &at(t[2]).place});
+FaceShading::Part Dicer::part_of(const FaceShading::Shaded& face, const Corners& t) {
+  std::array<const FaceShading::Place*, 3> places{};
+  for (std::size_t i = 0; i < 3 && face.normal_class > 0; ++i) {
+    Corner& c = corners_[t[i]];
+    if (!c.place) c.place = shading_->place(face, view_->place(c.clip), c.clip.color);
+    places[i] = &*c.place;
+  }
+  return shading_->part(face, places);
 }
 
 // Whether colour between the corners is too far from light somewhere in the picture.
@@ -106,10 +112,10 @@ bool Dicer::off(const FaceShading::Shaded& face, const Corners& t) const {
   return false;
 }
 
-bool Dicer::needs_cut(const FaceShading::Shaded& face, const Corners& t) const {
+bool Dicer::needs_cut(const FaceShading::Shaded& face, const Corners& t) {
   const double length = longest_edge(t).length;
   if (length < kLeastEdge || out_->shades.size() >= kMostShades) return false;
-  return off(face, t) || (length >= kLeastClassEdge && part_of(face, t).error > max_shading_);
+  return off(face, t) || (face.normal_class > 0 && length >= kLeastClassEdge && part_of(face, t).error > max_shading_);
 }
 
 std::int32_t Dicer::shade(const FaceShading::Shaded& face, const Corners& t) {
@@ -148,12 +154,24 @@ std::int32_t Dicer::cut(const FaceShading::Shaded& face, const Corners& t) {
   return static_cast<std::int32_t>(number);
 }
 
+bool Dicer::may_cut(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) const {
+  if (max_shading_ == 0 || !face.varies) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const ClipPoint& a = triangle[k];
+    const ClipPoint& b = triangle[(k + 1) % 3];
+    const double x = b.sx / b.q - a.sx / a.q;
+    const double y = b.sy / b.q - a.sy / a.q;
+    if (x * x + y * y >= kLeastEdge * kLeastEdge) return true;
+  }
+  return false;
+}
+
 bool Dicer::cuts(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
-  return max_shading_ > 0 && face.varies && needs_cut(face, begin(face, triangle));
+  return may_cut(face, triangle) && needs_cut(face, begin(face, triangle));
 }
 
 std::int32_t Dicer::dice(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
-  if (max_shading_ == 0 || !face.varies) return -1;
+  if (!may_cut(face, triangle)) return -1;
   const Corners t = begin(face, triangle);
   return needs_cut(face, t) ? cut(face, t) : -1;
 }

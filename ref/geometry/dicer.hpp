@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "geometry/face_shading.hpp"
@@ -33,10 +34,12 @@ class Dicer {
     double x;
     double y;
     ClipPoint clip;
-    FaceShading::Place place;
+    std::optional<FaceShading::Place> place;  // once it is asked for
   };
   using Corners = std::array<std::uint32_t, 3>;  // into corners_
 
+  /// It is not too small, and colour varies.
+  [[nodiscard]] bool may_cut(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) const;
   [[nodiscard]] const Corner& at(std::uint32_t corner) const { return corners_[corner]; }
   [[nodiscard]] Corners begin(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
   std::uint32_t add(const FaceShading::Shaded& face, const ClipPoint& p);
@@ -48,8 +51,8 @@ class Dicer {
   };
   [[nodiscard]] Edge longest_edge(const Corners& t) const;
   [[nodiscard]] bool off(const FaceShading::Shaded& face, const Corners& t) const;
-  [[nodiscard]] bool needs_cut(const FaceShading::Shaded& face, const Corners& t) const;
-  [[nodiscard]] FaceShading::Part part_of(const FaceShading::Shaded& face, const Corners& t) const;
+  [[nodiscard]] bool needs_cut(const FaceShading::Shaded& face, const Corners& t);
+  [[nodiscard]] FaceShading::Part part_of(const FaceShading::Shaded& face, const Corners& t);
   std::int32_t part(const FaceShading::Shaded& face, const Corners& t);
   std::int32_t cut(const FaceShading::Shaded& face, const Corners& t);
   std::int32_t shade(const FaceShading::Shaded& face, const Corners& t);

@@ -69,14 +69,11 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
   return s;
 }
 
-FaceShading::Place FaceShading::place(const Shaded& face, const glm::dvec3& at) const {
-  const SurfacePoint surface = face.surface.at(at);
-  Place p{color_of(face, surface), {}, 0};
-  if (face.normal_class == 0) return p;
-  p.loss = table_->loss_at(face.side, surface);
+FaceShading::Place FaceShading::place(const Shaded& face, const glm::dvec3& at, const glm::dvec3& color) const {
+  Place p{color, table_->loss_at(face.side, face.surface.at(at)), 0};
   p.normal_class = table_->nearest(p.loss);
-  const glm::dvec3 color = p.color * table_->before_own_shadow(face.side, p.normal_class);
-  if (std::max({color.x, color.y, color.z}) <= 255) return p;
+  const glm::dvec3 asked = color * table_->before_own_shadow(face.side, p.normal_class);
+  if (std::max({asked.x, asked.y, asked.z}) <= 255) return p;
   double least = error_of(face, p, p.normal_class);
   for (std::uint32_t number = 1; number <= table_->classes(); ++number)
     if (const double error = error_of(face, p, number); error < least) {

@@ -44,14 +44,14 @@ class FaceShading {
   /// The colour of a place of the face, before its own shadow.
   [[nodiscard]] glm::dvec3 color_at(const Shaded& face, const glm::dvec3& place) const;
 
-  /// A place of the face: its colour before its own shadow, what shadows take from it, and the class that asks for.
-  /// Where the face has no class of the table, the latter two are empty.
+  /// A place of the face that has a class of the table: its colour, what shadows take from it, and the class that asks
+  /// for.
   struct Place {
     glm::dvec3 color;
     LightTable::Loss loss;
     std::uint32_t normal_class = 0;
   };
-  [[nodiscard]] Place place(const Shaded& face, const glm::dvec3& at) const;
+  [[nodiscard]] Place place(const Shaded& face, const glm::dvec3& at, const glm::dvec3& color) const;
 
   /// The class of a part of a face.
   struct Part {
@@ -59,7 +59,8 @@ class FaceShading {
     glm::dvec3 factor;           ///< of color_at(), for its own shadow
     double error;                ///< by how much more a corner's colour is off than with its own class, in steps of 255
   };
-  /// The part between three places of the face: the class of one of them, that of least error for all.
+  /// The part between three places of the face: the class of one of them, that of least error for all. No places are
+  /// asked for where the face has no class of the table.
   [[nodiscard]] Part part(const Shaded& face, const std::array<const Place*, 3>& corners) const;
 
  private:

@@ -176,6 +176,8 @@ std::vector<LightTable::Part> LightTable::parts_of(const FaceSide& side) const {
       std::push_heap(parts.begin(), parts.end(), less);
     }
   }
+  // Heaps of other libraries may have another order.
+  std::sort(parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.number < b.number; });
   return parts;
 }
 

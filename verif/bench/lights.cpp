@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far the light of pictures, as kage render draws them, is from the reference (verif/oracle/light_reference.hpp).
 // 320x240; errors in LSB of a channel: mean and worst over pixels in some shadow, then over those of faces that are in
-// none. Then the same pixels in shadow by the steps to the truth that a core may take.
+// none. Then the same pixels in shadow by the steps to the truth that a core may take; and what dicing gains and costs.
 #include <fmt/format.h>
 
 #include <array>
@@ -9,8 +9,11 @@
 #include <string_view>
 
 #include "contract/derived.hpp"
+#include "cosim/phases.hpp"
+#include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
 #include "kage/pipeline.hpp"
+#include "kage/token.hpp"
 #include "oracle/judge.hpp"
 #include "oracle/light_reference.hpp"
 #include "stimulus/scenes/lit_scenes.hpp"
@@ -22,6 +25,7 @@ using namespace kage::verif;
 
 constexpr int kWidth = 320;
 constexpr int kHeight = 240;
+constexpr std::array kMaxShading{0, 4, 2, 1};
 
 /// A way to have light, and what it takes.
 struct Step {
@@ -44,7 +48,8 @@ void step_errors() {
   for (const LitScene& lit : lit_scenes()) {
     const SceneFrame f = Scene::from(lit.parts).frame(0, 1);
     const RayScene rays(f);
-    const LightReference reference(f, rays, sampled_points(f, {}), kWidth, kHeight);
+    const auto reference =
+        reference_picture(LightReference(f, rays, sampled_points(f, {}), kWidth, kHeight), kWidth, kHeight);
     fmt::print("{:17}", lit.name);
     for (const Step& s : kSteps) {
       Config c;
@@ -60,8 +65,7 @@ void step_errors() {
       }
       Look look;
       look.darkening = s.darkening;
-      const LightError e =
-          compare_light(draw(make_geometry(f, c, kWidth, kHeight, {.look = look}), c), kWidth, kHeight, reference);
+      const LightError e = compare_light(draw(make_geometry(f, c, kWidth, kHeight, {.look = look}), c), reference);
       fmt::print(" {:>15}", fmt::format("{:.2f}, {:.1f}", e.mean(), e.worst));
     }
     fmt::print("\n");
@@ -73,21 +77,53 @@ void print_heading(std::string_view of) {
              "worst", "else", "worst", "dB");
 }
 
+/// A scene's first frame, of which only what is opaque is seen: the reference has no layers.
+struct Judged {
+  explicit Judged(const Scene& scene) : drawn(scene.frame(0, scene.frame_count())) {
+    SceneFrame opaque = drawn;
+    for (Polygon& p : opaque.polygons)
+      if (opaque.triangles[p.triangle].alpha < 255) p.count = 0;
+    const RayScene rays(opaque);
+    reference =
+        reference_picture(LightReference(opaque, rays, sampled_points(opaque, {}), kWidth, kHeight), kWidth, kHeight);
+    for (Triangle& t : drawn.triangles)
+      if (t.alpha < 255) t.alpha = 0;
+  }
+
+  SceneFrame drawn;
+  std::vector<ReferencePixel> reference;
+};
+
+/// Each error of shading that is allowed, with what it leaves and what it takes.
+void dicing(const std::string& name, const Scene& scene) {
+  const NamedConfig chosen = choose_config(scene, {.width = kWidth, .height = kHeight});
+  const Config& c = chosen.config;
+  if (c.smooth == 0) return;
+  const Judged of(scene);
+  fmt::print("{:17} {:13}", name, chosen.name);
+  for (const int most : kMaxShading) {
+    Look look;
+    look.max_shading = most;
+    const FrameGeometry g = make_geometry(of.drawn, c, kWidth, kHeight, {.look = look});
+    std::vector<std::uint32_t> words;
+    make_frame(g, c, 0, words);
+    const Layout layout(c);
+    PhaseCounter counter(c);
+    counter.start(kWidth);
+    TokenWalk walk(layout, words);
+    for (auto token = walk.next(); !token.empty(); token = walk.next()) counter.token(decode(c, layout, token));
+    fmt::print(" {:6.1f} {:5} {:5}", compare_light(draw(g, c), of.reference).psnr(), (words.size() * 4 + 500) / 1000,
+               (counter.sums().clocks() + 500) / 1000);
+  }
+  fmt::print("\n");
+}
+
 /// The default choice.
 void reference_errors(const std::string& name, const Scene& scene) {
-  const DrawOptions options{.width = kWidth, .height = kHeight};
-  const NamedConfig chosen = choose_config(scene, options);
-  SceneFrame f = scene.frame(0, scene.frame_count());
-  // Light on what is opaque: the reference has no layers.
-  for (Polygon& p : f.polygons)
-    if (f.triangles[p.triangle].alpha < 255) p.count = 0;
-  const RayScene rays(f);
-  const LightReference reference(f, rays, sampled_points(f, options.look), kWidth, kHeight);
-  f = scene.frame(0, scene.frame_count());
-  for (Triangle& t : f.triangles)
-    if (t.alpha < 255) t.alpha = 0;
-  const FrameGeometry g = make_geometry(f, chosen.config, kWidth, kHeight, {.look = options.look});
-  const LightError e = compare_light(draw(g, chosen.config), kWidth, kHeight, reference);
+  const NamedConfig chosen = choose_config(scene, {.width = kWidth, .height = kHeight});
+  const Judged of(scene);
+  const FrameGeometry g = make_geometry(of.drawn, chosen.config, kWidth, kHeight);
+  const LightError e = compare_light(draw(g, chosen.config), of.reference);
   fmt::print("{:17} {:13} {:5} {:8} {:6.2f} {:6.1f} {:6.2f} {:6.1f} {:6.1f}\n", name, chosen.name, e.ties, e.shadowed,
              e.mean(), e.worst, e.lit_mean(), e.lit_worst, e.psnr());
 }
@@ -105,4 +141,11 @@ int main(int argc, char** argv) {
     for (const std::string& name : builtin_scenes()) reference_errors(name, Scene::load(name));
   }
   if (which.empty() || which == "steps") step_errors();
+  if (which.empty() || which == "dicing") {
+    fmt::print("{:17} {:13}", "dB, kB, kclocks", "configuration");
+    for (const int most : kMaxShading) fmt::print(" {:>18}", fmt::format("--max-shading {}", most));
+    fmt::print("\n");
+    for (const LitScene& lit : lit_scenes()) dicing(lit.name, Scene::from(lit.parts));
+    for (const std::string& name : builtin_scenes()) dicing(name, Scene::load(name));
+  }
 }

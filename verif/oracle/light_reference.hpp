@@ -219,30 +219,35 @@ struct LightError {
   }
 };
 
-/// Holds a picture of RGB words (red in the lowest byte), line by line, against the reference. A snap moves what a
-/// pixel shows by half a subpixel of 1/256 pixel at most in x and in y; rays `off` of a pixel around it tell where that
-/// may matter.
+/// The reference's picture, line by line. A snap moves what a pixel shows by half a subpixel of 1/256 pixel at most in
+/// x and in y; rays `off` of a pixel around it tell where that may matter.
 template <class Rays>
-LightError compare_light(const std::vector<std::uint32_t>& picture, int width, int height,
-                         const LightReference<Rays>& reference, double off = 1.0 / 128) {
-  LightError e;
+std::vector<ReferencePixel> reference_picture(const LightReference<Rays>& reference, int width, int height,
+                                              double off = 1.0 / 128) {
+  std::vector<ReferencePixel> picture;
   for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const ReferencePixel p = reference.pixel_with_ties(x, y, off);
-      if (p.tie) ++e.ties;
-      if (p.tie || p.face == kNothing) continue;
-      ++e.pixels;
-      e.shadowed += p.shadowed ? 1 : 0;
-      const std::uint32_t shown =
-          picture[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)];
-      for (int k = 0; k < 3; ++k) {
-        const double d = std::abs((shown >> (8 * k) & 255U) - p.color[k]);
-        (p.shadowed ? e.sum : e.lit_sum) += d;
-        double& worst = p.shadowed ? e.worst : e.lit_worst;
-        worst = std::max(worst, d);
-        e.squares += d * d;
-      }
+    for (int x = 0; x < width; ++x) picture.push_back(reference.pixel_with_ties(x, y, off));
+  return picture;
+}
+
+/// Holds a picture of RGB words (red in the lowest byte), line by line, against the reference's.
+inline LightError compare_light(const std::vector<std::uint32_t>& picture,
+                                const std::vector<ReferencePixel>& reference) {
+  LightError e;
+  for (std::size_t i = 0; i < reference.size(); ++i) {
+    const ReferencePixel& p = reference[i];
+    if (p.tie) ++e.ties;
+    if (p.tie || p.face == kNothing) continue;
+    ++e.pixels;
+    e.shadowed += p.shadowed ? 1 : 0;
+    for (int k = 0; k < 3; ++k) {
+      const double d = std::abs((picture[i] >> (8 * k) & 255U) - p.color[k]);
+      (p.shadowed ? e.sum : e.lit_sum) += d;
+      double& worst = p.shadowed ? e.worst : e.lit_worst;
+      worst = std::max(worst, d);
+      e.squares += d * d;
     }
+  }
   return e;
 }
 

@@ -59,7 +59,7 @@ def numbers(page, begin, name, scenes):
 
 
 rows("docs/stream.md", "polygon_level")
-for which in ("light", "built-in", "steps"):
+for which in ("light", "built-in", "steps", "dicing"):
     rows("docs/lights.md", "lights", part=(which,))
 rows("docs/shadows.md", "phases", "courtyard", "knot", "fifteen", "glass")
 numbers("docs/rtl.md", "It keeps up.", "front_end", ["courtyard"])

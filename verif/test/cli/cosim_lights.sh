@@ -74,5 +74,6 @@ expect 0 "$kage" stream penumbra --size 64x48 --frames 1 --samples 3 --out p.kag
 expect 0 "$kage" info p.kage --json info.json
 json info.json 'j["tokens"]["ES"] > 50'
 trouble "p.kage: --samples, --classes: only a scene takes them, and this is a stream" "$kage" render p.kage --samples 5 --out x
+trouble "p.kage: --max-shading: only a scene takes it, and this is a stream" "$kage" render p.kage --max-shading 0 --out x
 trouble "p.kage: --sub-bits: only a scene takes it, and this is a stream" "$kage" render p.kage --sub-bits 5 --out x
 done_testing

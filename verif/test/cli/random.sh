@@ -92,7 +92,7 @@ again=$(sed -n 's/^that frame again: kage \([^ ]* [^ ]*\) .*/\1/p' ended.out)
 [ -n "$again" ] || fail "the frame is lost: $(cat ended.out)"
 expect 1 "$kage" $again "${silent[@]}" --out again
 
-for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" "--sub-bits 5" --cull "--alpha 0.5" --allow-outside; do
+for option in "--size 32x24" --degrade --units-only "--order centroid" "--max-fragments 9" "--samples 3" "--classes 3" "--max-shading 3" "--sub-bits 5" --cull "--alpha 0.5" --allow-outside; do
   # shellcheck disable=SC2086
   trouble "random: ${option%% *}: random frames " "$kage" cosim random $option
 done

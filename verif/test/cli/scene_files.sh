@@ -123,6 +123,15 @@ expect 0 "$kage" stream edges "${small[@]}" --out bits.kage
 cmp -s bits.kage bits8.kage || fail "8 bits of a subpixel are not the default"
 cmp -s bits.kage bits4.kage && fail "4 bits of a subpixel move no edge"
 
+# --max-shading: 2 is the default, 0 cuts nothing, and less error takes more words.
+for most in 0 1 2; do
+  expect 0 "$kage" stream inside "${small[@]}" --max-shading $most --out shading$most.kage
+done
+expect 0 "$kage" stream inside "${small[@]}" --out shading.kage
+cmp -s shading.kage shading2.kage || fail "2 is not the default of --max-shading"
+size() { stat -c %s "shading$1.kage"; }
+[ "$(size 0)" -lt "$(size 2)" ] && [ "$(size 2)" -lt "$(size 1)" ] || fail "--max-shading: $(size 0), $(size 2) and $(size 1) bytes"
+
 # An unlit square shows its colour: sRGB of 0.5 and 0.25.
 quad unlit.gltf '{"materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0.5, 0.25, 1, 1]}, "extensions": {"KHR_materials_unlit": {}}}]}'
 quad lamp.gltf '{"materials": [{"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1]}, "emissiveFactor": [0.5, 0.25, 1]}]}'

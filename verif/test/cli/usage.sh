@@ -110,6 +110,7 @@ line "kage: --frames: 1000001 is not a whole number from 1 to 1000000; see kage 
 line "kage: --frames: 010 begins with 0; see kage render --help" "$kage" render courtyard --frames 010
 line "kage: --samples: 0x10 is not a whole number from 1 to 255; see kage render --help" "$kage" render penumbra --samples 0x10
 line "kage: --sub-bits: 3 is not a whole number from 4 to 8; see kage render --help" "$kage" render courtyard --sub-bits 3
+line "kage: --max-shading: 256 is not a whole number from 0 to 255; see kage render --help" "$kage" render courtyard --max-shading 256
 line "kage: --sub-bits: 9 is not a whole number from 4 to 8; see kage render --help" "$kage" render courtyard --sub-bits 9
 line "kage: --alpha: 0 is not in 1/255 .. 1; see kage render --help" "$kage" render courtyard --alpha 0
 expect 0 "$kage" stream courtyard --alpha 0.00392156862745098 --size 32x24 --frames 1 --out faint.kage

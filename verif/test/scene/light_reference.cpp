@@ -240,8 +240,9 @@ TEST_CASE("a sun's shadow is the reference's where its share comes from a table"
   c.smooth = 1;
   c.color_frac = 8;
   const RayScene rays(f);
-  const LightReference reference(f, rays, sampled_points(f, {}), kWidth, kHeight);
-  const LightError e = compare_light(draw(make_geometry(f, c, kWidth, kHeight), c), kWidth, kHeight, reference);
+  const auto picture =
+      reference_picture(LightReference(f, rays, sampled_points(f, {}), kWidth, kHeight), kWidth, kHeight);
+  const LightError e = compare_light(draw(make_geometry(f, c, kWidth, kHeight), c), picture);
   UNSCOPED_INFO(fmt::format("{} in shadow, mean {:.2f}, worst {:.2f}, others {:.2f}, {:.2f}; {:.1f} dB", e.shadowed,
                             e.mean(), e.worst, e.lit_mean(), e.lit_worst, e.psnr()));
   CHECK(e.shadowed > 700);
@@ -348,15 +349,16 @@ TEST_CASE("the reference tells light that is wrong") {
   c.smooth = 1;
   c.color_frac = 8;
   const RayScene rays(f);
-  const LightReference reference(f, rays, sampled_points(f, {}), kWidth, kHeight);
+  const auto picture =
+      reference_picture(LightReference(f, rays, sampled_points(f, {}), kWidth, kHeight), kWidth, kHeight);
   FrameGeometry g = make_geometry(f, c, kWidth, kHeight);
-  const LightError before = compare_light(draw(g, c), kWidth, kHeight, reference);
+  const LightError before = compare_light(draw(g, c), picture);
   CHECK(before.mean() < 4);  // one share for a floor and a ball
   g.shade = g.shade * 9 / 10;
-  const LightError lighter = compare_light(draw(g, c), kWidth, kHeight, reference);
+  const LightError lighter = compare_light(draw(g, c), picture);
   CHECK(lighter.mean() > before.mean() + 5);
   CHECK(lighter.lit_sum == before.lit_sum);
   for (ScreenPolygon& p : g.polygons)
     p.color[0] = static_cast<std::uint8_t>(p.color[0] - std::min<int>(p.color[0], 20));
-  CHECK(compare_light(draw(g, c), kWidth, kHeight, reference).lit_mean() > before.lit_mean() + 5);
+  CHECK(compare_light(draw(g, c), picture).lit_mean() > before.lit_mean() + 5);
 }
