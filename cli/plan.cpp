@@ -262,16 +262,19 @@ Json candidate_json(const Plan& plan, const PlanCandidate& c) {
   return {{"way", c.way}, {"config", cli::to_json(c.config)}, {"cost", cost_json(plan, c.config, c.cost)}};
 }
 
-Json accuracy_json(const explore::Accuracy& a) {
-  return {{"wrong_ppm", a.wrong_ppm()}, {"z_error", a.z_max}, {"color_steps", a.color_max}};
+Json errors_json(const explore::MeasuredErrors& e) {
+  return {{"wrong_ppm", e.pictures.wrong_ppm()},
+          {"z_error", e.pictures.z_max},
+          {"color_steps", e.pictures.color_max},
+          {"light_rms", e.light.pixels > 0 ? Json(e.light.rms()) : Json(nullptr)}};
 }
 
 /// Measured errors of pictures with the plan's widths, and with the widths before they were rounded up to steps.
 Json measured_json(const Plan& plan, const explore::MeasuredPlan* measured) {
   if (measured == nullptr) return nullptr;
   const explore::MeasuredPlan::Lowered& l = *measured->lowered(plan.config);
-  Json j = accuracy_json(l.taken_gives);
-  j["before_steps"] = accuracy_json(l.least_gives);
+  Json j = errors_json(l.taken_gives);
+  j["before_steps"] = errors_json(l.least_gives);
   j["before_steps"]["config"] = cli::to_json(l.least);
   return j;
 }

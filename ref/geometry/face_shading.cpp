@@ -72,7 +72,7 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
 FaceShading::Place FaceShading::place(const Shaded& face, const glm::dvec3& at, const glm::dvec3& color) const {
   Place p{color, table_->loss_at(face.side, face.surface.at(at)), 0};
   p.normal_class = table_->nearest(p.loss);
-  const glm::dvec3 asked = color * table_->before_own_shadow(face.side, p.normal_class);
+  const glm::dvec3 asked = color * table_->about_own_shadow(face.side, p.normal_class);
   if (std::max({asked.x, asked.y, asked.z}) <= 255) return p;
   double least = error_of(face, p, p.normal_class);
   for (std::uint32_t number = 1; number <= table_->classes(); ++number)
@@ -86,7 +86,7 @@ FaceShading::Place FaceShading::place(const Shaded& face, const glm::dvec3& at, 
 // In the full shadow of a light, or in none, where the colour that the face's own shadow asks for is above white. The
 // latter shows wherever the face does, the former only where something casts a shadow on it.
 double FaceShading::error_of(const Shaded& face, const Place& at, std::uint32_t number) const {
-  const glm::dvec3 factor = table_->before_own_shadow(face.side, number);
+  const glm::dvec3 factor = table_->about_own_shadow(face.side, number);
   constexpr double kAlways = 16;
   const glm::dvec3 lost = kAlways * (at.color - glm::min(at.color, 255.0 / factor));
   return std::max({table_->error_of(face.side, at.loss, number), lost.x, lost.y, lost.z});

@@ -81,7 +81,7 @@ LightTable::LightTable(const SceneFrame& frame, const Config& config, const Look
   if (members.empty()) add_sides(true, all, members, area);
   if (!derived::has_table(config)) {
     make_one(all, look);
-    round_middles();  // not limited: one bright face would take the shadows of all others
+    make_entries({});  // not limited: one bright face would take the shadows of all others
     measure(all, std::vector<std::uint32_t>(members.size(), 0), area);
     return;
   }
@@ -90,8 +90,7 @@ LightTable::LightTable(const SceneFrame& frame, const Config& config, const Look
   middles_ = clusters.middles;
   for (std::size_t i = 0; i < members.size(); ++i)
     if (members[i].number != nullptr) *members[i].number = clusters.of[i] + 1;
-  round_middles();
-  limit(members, clusters.of);
+  make_entries(limit(members, clusters.of));
   measure(all, clusters.of, area);
 }
 
@@ -183,7 +182,8 @@ std::vector<LightTable::Part> LightTable::parts_of(const FaceSide& side) const {
 
 // Lowers entries by which a member's own shadow would ask for a colour above white: what is lit must come out right.
 // Members that are a small part of their class are passed over, or they would take the shadows of all others.
-void LightTable::limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of) {
+std::vector<bool> LightTable::limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of) {
+  std::vector<bool> limited(middles_.size(), false);
   std::vector<double> areas(middles_.size() / numbers_, 0);
   for (std::size_t i = 0; i < members.size(); ++i) areas[of[i]] += members[i].area;
   for (std::size_t i = 0; i < members.size(); ++i) {
@@ -195,27 +195,32 @@ void LightTable::limit(const std::vector<Member>& members, const std::vector<std
       const double room = std::max(1 - members[i].brightest[static_cast<int>(c)] / kWhite, 0.0);
       if (own_shadow <= room) continue;
       for (std::size_t l = 0; l < lights_->casting; ++l) {
-        double& entry = middles_[of[i] * numbers_ + l * kChannels + c];
-        entry =
-            std::ldexp(std::floor(std::ldexp(entry * (room / own_shadow), config_->shade_frac)), -config_->shade_frac);
+        const std::size_t at = of[i] * numbers_ + l * kChannels + c;
+        middles_[at] *= room / own_shadow;
+        limited[at] = true;
       }
     }
   }
+  return limited;
 }
 
-// As RESOLVE has them.
-void LightTable::round_middles() {
-  for (double& m : middles_)
-    m = std::isfinite(m) ? std::ldexp(static_cast<double>(to_fixed(std::clamp(m, 0.0, 1.0), config_->shade_frac)),
-                                      -config_->shade_frac)
-                         : 0;
+// As RESOLVE has them. Those that are limited are rounded down.
+void LightTable::make_entries(const std::vector<bool>& limited) {
+  for (double& m : middles_) m = std::isfinite(m) ? std::clamp(m, 0.0, 1.0) : 0;
+  const int frac = config_->shade_frac;
+  for (std::size_t i = 0; i < middles_.size(); ++i) {
+    const bool down = i < limited.size() && limited[i];
+    const double whole =
+        down ? std::floor(std::ldexp(middles_[i], frac)) : static_cast<double>(to_fixed(middles_[i], frac));
+    entries_.push_back(std::ldexp(whole, -frac));
+  }
 }
 
 void LightTable::measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area) {
   double squares = 0;
   for (std::size_t i = 0; i < of.size(); ++i)
     for (std::size_t d = 0; d < numbers_; ++d) {
-      const double off = all.value(i)[d] - middles_[of[i] * numbers_ + d];
+      const double off = all.value(i)[d] - entries_[of[i] * numbers_ + d];
       squares += all.weight(i)[d] * (off * off);
     }
   error_ = area > 0 ? std::sqrt(squares / area) : 0;
@@ -372,12 +377,20 @@ double LightTable::error_of(const FaceSide& side, const Loss& l, std::uint32_t n
 }
 
 glm::dvec3 LightTable::before_own_shadow(const FaceSide& side, std::uint32_t number) const {
+  return own_shadow(side, number, entries_);
+}
+
+glm::dvec3 LightTable::about_own_shadow(const FaceSide& side, std::uint32_t number) const {
+  return own_shadow(side, number, middles_);
+}
+
+glm::dvec3 LightTable::own_shadow(const FaceSide& side, std::uint32_t number, const std::vector<double>& shares) const {
   glm::dvec3 left{1, 1, 1};
   if (number == 0 || !shadows_itself(side)) return left;
   for (std::size_t l = 0; l < lights_->casting; ++l) {
     const int behind = side.count(*lights_, l, -1);
     for (std::size_t c = 0; c < kChannels; ++c)
-      left[static_cast<int>(c)] -= behind * middles_[(number - 1) * numbers_ + l * kChannels + c];
+      left[static_cast<int>(c)] -= behind * shares[(number - 1) * numbers_ + l * kChannels + c];
   }
   return 1.0 / glm::max(left, glm::dvec3(kLeastLeft));
 }
@@ -385,14 +398,14 @@ glm::dvec3 LightTable::before_own_shadow(const FaceSide& side, std::uint32_t num
 void LightTable::put(FrameGeometry& out) const {
   const auto fixed = [this](double share) { return static_cast<std::uint32_t>(to_fixed(share, config_->shade_frac)); };
   if (!derived::has_table(*config_)) {
-    if (!middles_.empty()) out.shade = fixed(middles_[0]);
+    if (!middles_.empty()) out.shade = fixed(entries_[0]);
     return;
   }
   for (std::size_t first = 0; first < middles_.size(); first += numbers_)
     for (std::size_t l = 0; l < static_cast<std::size_t>(config_->lights); ++l) {
       auto& entry = out.shares.emplace_back();
       if (l >= lights_->casting) continue;
-      for (std::size_t c = 0; c < kChannels; ++c) entry[c] = fixed(middles_[first + l * kChannels + c]);
+      for (std::size_t c = 0; c < kChannels; ++c) entry[c] = fixed(entries_[first + l * kChannels + c]);
     }
 }
 

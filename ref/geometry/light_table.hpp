@@ -44,8 +44,8 @@ class LightTable {
   /// The class of a side that takes shadow, from 1; without a table all are in one. 0: there is none.
   [[nodiscard]] std::uint32_t number(const FaceSide& side) const;
 
-  /// What shadows take from places of a side: of each light and channel the share of a sample, and how much an error
-  /// there would count. That is by area, and the square of the colour that all samples would take.
+  /// Shares of a colour that shadows take at places of a side: of each light and channel that of a sample, and how much
+  /// an error there would count. The latter goes by area, and by the square of the colour that all samples would take.
   struct Loss {
     std::vector<double> shares;
     std::vector<double> weights;
@@ -59,8 +59,8 @@ class LightTable {
   /// The class, from 1, of least error for a loss; of several the first.
   [[nodiscard]] std::uint32_t nearest(const Loss& loss) const;
 
-  /// How far the colour of a place would be off in the full shadow of a light, in steps of 255, if this were its class:
-  /// at most of the lights that may be kept from the side.
+  /// The error of a place's colour in the full shadow of a light, in steps of 255, if this were its class: the greatest
+  /// over the lights that may be kept from the side.
   [[nodiscard]] double error_of(const FaceSide& side, const Loss& loss, std::uint32_t number) const;
 
   [[nodiscard]] std::uint32_t classes() const { return static_cast<std::uint32_t>(middles_.size() / numbers_); }
@@ -68,6 +68,8 @@ class LightTable {
   /// A factor for each channel of a side's colour. The shadow that the side throws on itself counts the points behind
   /// it; what that leaves of the product is the colour.
   [[nodiscard]] glm::dvec3 before_own_shadow(const FaceSide& side, std::uint32_t number) const;
+  /// The same by shares that are not rounded: what chooses a class by it chooses the same whatever SHADE_FRAC is.
+  [[nodiscard]] glm::dvec3 about_own_shadow(const FaceSide& side, std::uint32_t number) const;
 
   /// How far colours in the full shadow of a light are off because a class has one share, in steps of 255. It is the
   /// root mean square over lights, channels, and the area of the sides that casters may keep light from.
@@ -106,8 +108,10 @@ class LightTable {
   [[nodiscard]] glm::dvec3 lit_color(const FaceSide& side, const SurfacePoint& at) const;
   void add_loss(const FaceSide& side, const SurfacePoint& at, double weight, Loss& out) const;
   void add_sides(bool inner, WeightedVectors& all, std::vector<Member>& members, double& area);
-  void round_middles();
-  void limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of);
+  void make_entries(const std::vector<bool>& limited);
+  [[nodiscard]] glm::dvec3 own_shadow(const FaceSide& side, std::uint32_t number,
+                                      const std::vector<double>& shares) const;
+  std::vector<bool> limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of);
   [[nodiscard]] bool shadows_itself(const FaceSide& side) const;
   void make_one(const WeightedVectors& all, const Look& look);
   void measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area);
@@ -120,6 +124,7 @@ class LightTable {
   bool diced_;                   // faces have parts, with classes of their own
   std::size_t numbers_;          // of a class: casting lights times channels
   std::vector<double> middles_;  // of each class, a light's channels one after the other
+  std::vector<double> entries_;  // these, rounded to SHADE_FRAC
   double error_ = 0;
   std::vector<std::array<Known, 2>> known_;  // of each polygon's outside and inside
   std::size_t extra_ = 0;                    // parts beyond one of each side

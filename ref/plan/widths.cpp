@@ -330,6 +330,11 @@ int position_step(int least) {
 
 int four_step(int least) { return (least + 3) / 4 * 4; }
 
+int class_step(int least) {
+  const auto step = std::find_if(kClassSteps.begin(), kClassSteps.end(), [&](int s) { return s >= least; });
+  return step != kClassSteps.end() ? *step : least;
+}
+
 int width_step(int least) {
   int best = 0;
   for (const NamedConfig& n : named_configs())

@@ -21,6 +21,8 @@ int four_step(int least);
 /// The next step of MAX_WIDTH: the least width at or above `least` that a named configuration has; `least` past the
 /// widest.
 int width_step(int least);
+/// The next step of CLASS_BITS: 4, 8, 11.
+int class_step(int least);
 
 /// Bound of a stored depth's error in steps of Z_BITS bits, after `pixels` pixels of a span, in a picture of this size.
 /// It is the sum of these:

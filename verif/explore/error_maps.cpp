@@ -20,6 +20,8 @@ std::filesystem::path beside(const std::filesystem::path& picture, std::string_v
   return picture.parent_path() / fmt::format("{}_error{}.png", picture.stem().string(), what);
 }
 
+double mean(double sum, std::uint64_t of) { return of > 0 ? sum / static_cast<double>(of) : 0; }
+
 /// The total that a number of shadowed samples is part of, if a light is soft.
 std::string samples_text(const std::vector<int>& samples) {
   const int most = samples.empty() ? 1 : *std::max_element(samples.begin(), samples.end());
@@ -66,6 +68,15 @@ void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles
       files.remove(own);
     }
   }
+  const std::filesystem::path lit = beside(picture, "_light");
+  LightErrors light;
+  if (!point_.look.cull) {  // rays know nothing of it
+    const auto truth = scene_->light(index, point_);
+    light = light_errors(*truth, drawn);
+    save_image(files, lit, picture_of(light_map(*truth, drawn), drawn));
+  } else if (std::filesystem::exists(lit)) {
+    files.remove(lit);
+  }
   report::Json j;
   j["frame"] = index;
   j["pixels"] = all.pixels;
@@ -75,6 +86,11 @@ void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles
   j["color_wrong"] = all.color_wrong;
   j["file"] = path.string();
   j["sources"] = sources;
+  j["light"] = nullptr;
+  if (light.pixels > 0) {
+    j["light"] = light_json(light);
+    j["light"]["file"] = lit.string();
+  }
   json_.push_back(j);
   text_ += fmt::format(
       "frame {}: wrong face {}, wrong shadow {}{}, other colour {}, gross (beyond any stated error) {}: {}\n", index,
@@ -84,6 +100,15 @@ void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles
   text_ += told.empty() ? "  no source has an error of its own\n"
                         : fmt::format("  each source alone against the finest picture{}, face/shadow/colour: {}: {}\n",
                                       finest, fmt::join(told, ", "), beside(picture, "_SOURCE").string());
+  if (light.pixels > 0)
+    text_ += fmt::format(
+        "  light at the pixel, of {} pixels {} in some shadow, is off by {:.2f} steps of 255 there and {:.2f} "
+        "elsewhere, "
+        "{} dB: {}\n",
+        light.pixels, light.shadowed, mean(light.shadow_sum, 3 * light.shadowed),
+        mean(light.lit_sum, 3 * (light.pixels - light.shadowed)),
+        psnr(light.squares, light.pixels) ? fmt::format("{:.1f}", *psnr(light.squares, light.pixels)) : "no error in",
+        lit.string());
   scene_->forget(index);
 }
 

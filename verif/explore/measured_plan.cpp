@@ -12,6 +12,7 @@
 
 #include "contract/params.hpp"
 #include "explore/screen_truth.hpp"
+#include "explore/sweep_scene.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "plan/demand.hpp"
@@ -28,11 +29,12 @@ struct Judged {
   SceneFrame frame;
   const DrawOptions* draw = nullptr;
   ScreenTruth truth;
+  std::shared_ptr<const LightTruth> light;
   std::map<std::array<int, 4>, DrawnFrame> finest;  // by what decides how light is shown
 };
 
-/// Parameters that decide how light is shown. Colours are compared between pictures that share them: how wrong they
-/// make light follows from the frame's faces (light_demand), not from widths.
+/// Parameters that decide how light is shown. Colours are compared between pictures that share them; how wrong these
+/// make light is measured against the truth of light.
 std::array<int, 4> light_of(const Config& c) { return {c.smooth, c.count_bits, c.lights, c.class_bits}; }
 
 /// The same features with every width that may be lowered at its finest.
@@ -41,6 +43,7 @@ Config finest_of(Config c) {
   c.z_frac = kGreatest.z_frac;
   if (c.smooth > 0) c.color_frac = kGreatest.color_frac;
   if (c.dsf_bits > 0) c.shade_frac = kGreatest.shade_frac;
+  if (c.class_bits > 1) c.class_bits = kGreatest.class_bits;
   return c;
 }
 
@@ -54,11 +57,16 @@ struct Width {
 int fraction_step(int v) { return plan::position_step(std::max(v, 1)); }
 int shade_step(int v) { return std::min(plan::four_step(v), kGreatest.shade_frac); }
 
-/// The widths that may be lowered of a configuration, each with its least value.
-std::vector<Width> widths_of(const Config& c) {
+/// One bit is no table.
+int class_bits_step(int v) { return v > 1 ? plan::class_step(v) : v; }
+
+/// The widths that may be lowered of a configuration, each with its least value; classes, if light can be kept.
+std::vector<Width> widths_of(const Config& c, bool classes = true) {
   std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
   if (c.smooth > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
   if (c.dsf_bits > 0) list.push_back({&Config::shade_frac, 1, shade_step});
+  // With one bit there is no table, which several lights need.
+  if (c.class_bits > 1 && classes) list.push_back({&Config::class_bits, c.lights > 1 ? 2 : 1, class_bits_step});
   return list;
 }
 
@@ -71,6 +79,7 @@ struct MeasuredPlan::Data {
   plan::Features features;
   std::vector<Judged> frames;  // empty until they are asked for
   std::uint64_t pixels = 0;
+  bool keeps_light = true;  // the finest pictures are within the limit of light
   std::vector<Lowered> lowered;
 
   /// The picture of a frame with the finest widths, light being shown as `config` does.
@@ -91,8 +100,17 @@ struct MeasuredPlan::Data {
     features = plan::features_of(scenes);
     // Parity is right for any caster, so its volumes are what the oracle is asked about.
     const Config config = finest_of(plan::finest(features, features.needs.shadows ? 1 : 0, 0));
+    LightErrors light;
     for (const PlannedScene& scene : scenes) {
       const int count = plan::frames_of(scene);
+      SweepPoint point;
+      point.config = config;
+      point.width = scene.draw.width;
+      point.height = scene.draw.height;
+      point.look = scene.draw.look;
+      DrawOptions drawn = scene.draw;
+      drawn.frames = count;
+      SweepScene lit(scene.scene, drawn, point, step);
       for (int i = 0; i < count; ++i) {
         step();
         Judged j;
@@ -101,10 +119,13 @@ struct MeasuredPlan::Data {
         const FrameGeometry g =
             make_geometry(j.frame, config, scene.draw.width, scene.draw.height, {.look = scene.draw.look});
         j.truth = screen_truth(g, config, scene.draw.threads);
+        if (!scene.draw.look.cull) j.light = lit.light(i, point);
         pixels += j.truth.pixels.size();
+        if (j.light) light += light_errors(*j.light, finest_picture(j, config));
         frames.push_back(std::move(j));
       }
     }
+    keeps_light = light.rms() <= limits.color;
   }
 };
 
@@ -118,18 +139,22 @@ MeasuredPlan::MeasuredPlan(std::span<const PlannedScene> scenes, const MeasuredL
 
 MeasuredPlan::~MeasuredPlan() = default;
 
-bool MeasuredPlan::within(const Accuracy& a) const {
+bool MeasuredPlan::within(const MeasuredErrors& errors) const {
   const MeasuredLimits& l = data_->limits;
-  return a.z_max <= l.z && a.color_max <= l.color && (!l.wrong || a.wrong_ppm(data_->pixels) <= *l.wrong);
+  const Accuracy& a = errors.pictures;
+  return (errors.light.rms() <= l.color || !data_->keeps_light) && a.z_max <= l.z && a.color_max <= l.color &&
+         (!l.wrong || a.wrong_ppm(data_->pixels) <= *l.wrong);
 }
 
-std::optional<Accuracy> MeasuredPlan::measure(const Config& config, bool whole) {
+std::optional<MeasuredErrors> MeasuredPlan::measure(const Config& config, bool whole) {
   data_->judge_all();
-  Accuracy all;
+  MeasuredErrors all;
   for (Judged& j : data_->frames) {
     data_->step();
     try {
-      all += compare(j.truth, data_->finest_picture(j, config), draw(j.frame, config, *j.draw), config);
+      const DrawnFrame drawn = draw(j.frame, config, *j.draw);
+      all.pictures += compare(j.truth, data_->finest_picture(j, config), drawn, config);
+      if (j.light) all.light += light_errors(*j.light, drawn);
     } catch (const Error&) {
       return std::nullopt;
     }
@@ -138,8 +163,9 @@ std::optional<Accuracy> MeasuredPlan::measure(const Config& config, bool whole) 
   return all;
 }
 
-std::string MeasuredPlan::text(const Accuracy& a) const {
+std::string MeasuredPlan::text(const MeasuredErrors& errors) const {
   const MeasuredLimits& l = data_->limits;
+  const Accuracy& a = errors.pictures;
   const auto figure = [](double value, double limit, const char* name, int digits) {
     const plan::FigureText t = plan::told_apart(value, limit, digits);
     return std::pair(t.value, value > limit ? fmt::format(" (over {} {})", name, t.limit) : std::string());
@@ -148,8 +174,13 @@ std::string MeasuredPlan::text(const Accuracy& a) const {
   const auto [wrong, over_wrong] = figure(ppm, l.wrong.value_or(ppm), "--max-wrong", 6);
   const auto [z, over_z] = figure(a.z_max, l.z, "--max-z", 3);
   const std::string over_color = a.color_max > l.color ? fmt::format(" (over --max-color {})", l.color) : std::string();
-  return fmt::format("{} ppm wrong{}, depth off by {}{}, colour by {}{}", wrong, over_wrong, z, over_z,
-                     counted(a.color_max, "step"), over_color);
+  const auto [light, over_light] = figure(errors.light.rms(), l.color, "--max-color", 2);
+  return fmt::format("{} ppm wrong{}, depth off by {}{}, colour by {}{}{}", wrong, over_wrong, z, over_z,
+                     counted(a.color_max, "step"), over_color,
+                     errors.light.pixels == 0 ? ""
+                     : data_->keeps_light
+                         ? fmt::format(", light by {}{}", light, over_light)
+                         : fmt::format(", light by {} (no widths keep --max-color {})", light, l.color));
 }
 
 std::string MeasuredPlan::limits_text() const {
@@ -177,16 +208,17 @@ const MeasuredPlan::Lowered* MeasuredPlan::lowered(const Config& config) const {
 }
 
 void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
-  const auto serves = [&](const std::optional<Accuracy>& a) { return a && within(*a); };
+  const auto serves = [&](const std::optional<MeasuredErrors>& a) { return a && within(*a); };
   Config at = widths;
   if (!serves(measure(at))) {
     at = finest_of(at);
+    if (!data_->keeps_light) at.class_bits = widths.class_bits;
     if (!serves(measure(at))) {
-      const std::optional<Accuracy> most = measure(at, true);
+      const std::optional<MeasuredErrors> most = measure(at, true);
       throw Error(fmt::format("the finest widths ({}) {}", widths_text(at), most ? "give " + text(*most) : kCannot));
     }
   }
-  const std::vector<Width> list = widths_of(at);
+  const std::vector<Width> list = widths_of(at, data_->keeps_light);
   // One width after the other, until a whole round lowers none: then each of them, one less, was over a limit.
   std::vector<std::string> one_less(list.size());
   for (bool lowered = true; lowered;) {
@@ -196,9 +228,9 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
       while (at.*w.member > w.least) {
         Config less = at;
         less.*w.member -= 1;
-        const std::optional<Accuracy> a = measure(less);
+        const std::optional<MeasuredErrors> a = measure(less);
         if (!serves(a)) {
-          const std::optional<Accuracy> all = a ? measure(less, true) : a;
+          const std::optional<MeasuredErrors> all = a ? measure(less, true) : a;
           one_less[k] = fmt::format("; {} {}", at.*w.member - 1, all ? "give " + text(*all) : kCannot);
           break;
         }
@@ -213,7 +245,7 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
   Lowered found{at, measure(at, true).value(), at, {}};
   for (const Width& w : list) found.taken.*w.member = w.step(at.*w.member);
   // More bits are finer, but other roundings may move more pixels of these frames: then what was measured is taken.
-  const std::optional<Accuracy> stepped = measure(found.taken, true);
+  const std::optional<MeasuredErrors> stepped = measure(found.taken, true);
   const bool exact = !serves(stepped);
   if (exact) found.taken = at;
   found.taken_gives = exact ? found.least_gives : *stepped;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "explore/accuracy.hpp"
+#include "explore/sweep_accuracy.hpp"
 #include "kage/plan.hpp"
 
 namespace kage::explore {
@@ -20,7 +21,15 @@ namespace kage::explore {
 struct MeasuredLimits {
   std::optional<double> wrong;  ///< pixels in a million that show another face or shadow than the oracle, near ties too
   double z = 0;                 ///< error of a stored depth, as a share of the range
-  int color = 1;                ///< steps of 8 bits from the finest picture
+  /// Steps of 8 bits: at most from the picture of the finest widths that shows light the same way, and root mean square
+  /// from the truth of light.
+  int color = 1;
+};
+
+/// Errors of the pictures of all frames.
+struct MeasuredErrors {
+  Accuracy pictures;
+  LightErrors light;  ///< no pixels with Look::cull, of which rays know nothing
 };
 
 class MeasuredPlan {
@@ -40,15 +49,16 @@ class MeasuredPlan {
   /// Result of lower().
   struct Lowered {
     Config least;  ///< before widths are rounded up to steps: what the reasons tell of
-    Accuracy least_gives;
+    MeasuredErrors least_gives;
     Config taken;  ///< what it put in their place
-    Accuracy taken_gives;
+    MeasuredErrors taken_gives;
   };
   /// The result for a configuration with widths that lower() gave, in any arrangement; null: it gave none such.
   [[nodiscard]] const Lowered* lowered(const Config& config) const;
 
-  /// "0 ppm wrong, depth off by 6.02e-08 (over --max-z 5.96e-08), colour by 1 step", all frames being counted.
-  [[nodiscard]] std::string text(const Accuracy& accuracy) const;
+  /// "0 ppm wrong, depth off by 6.02e-08 (over --max-z 5.96e-08), colour by 1 step, light by 0.31", all frames being
+  /// counted.
+  [[nodiscard]] std::string text(const MeasuredErrors& errors) const;
   /// "--max-z 5.96e-08, --max-color 1".
   [[nodiscard]] std::string limits_text() const;
   /// "Z_BITS 22, Z_FRAC 9": the widths that lower() may lower.
@@ -56,10 +66,10 @@ class MeasuredPlan {
 
   /// Draws all frames with a configuration and holds them against the truth. Ends early, with what it has, once a limit
   /// is passed, unless `whole`. None: the configuration cannot represent a frame.
-  std::optional<Accuracy> measure(const Config& config, bool whole = false);
+  std::optional<MeasuredErrors> measure(const Config& config, bool whole = false);
 
   /// Whether pictures are within the limits, all frames being counted.
-  [[nodiscard]] bool within(const Accuracy& accuracy) const;
+  [[nodiscard]] bool within(const MeasuredErrors& errors) const;
 
  private:
   struct Data;

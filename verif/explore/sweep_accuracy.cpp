@@ -122,9 +122,11 @@ void ask_rays(SweepScene& scene, int frame, const SweepPoint& point, const Drawn
   }
 }
 
-LightErrors light_errors(const std::vector<LightPixel>& truth, const DrawnFrame& drawn) {
+}  // namespace
+
+LightErrors light_errors(const LightTruth& truth, const DrawnFrame& drawn) {
   LightErrors e;
-  for (const LightPixel& p : truth) {
+  for (const LightPixel& p : truth.pixels) {
     const std::size_t i =
         static_cast<std::size_t>(p.y) * static_cast<std::size_t>(drawn.width) + static_cast<std::size_t>(p.x);
     if (drawn.face[i] != p.face) continue;
@@ -141,7 +143,26 @@ LightErrors light_errors(const std::vector<LightPixel>& truth, const DrawnFrame&
   return e;
 }
 
-}  // namespace
+ErrorMap light_map(const LightTruth& truth, const DrawnFrame& drawn) {
+  ErrorMap map{.width = drawn.width, .height = drawn.height, .pixels = std::vector<PixelError>(drawn.face.size())};
+  const auto at = [&](int x, int y) {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(drawn.width) + static_cast<std::size_t>(x);
+  };
+  for (const LightPixel& p : truth.pixels) {
+    const std::size_t i = at(p.x, p.y);
+    if (drawn.face[i] != p.face) continue;
+    PixelError e;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double off = std::abs(drawn.color[i][c] - p.color[static_cast<int>(c)]);
+      e.color = std::max(e.color, static_cast<std::uint8_t>(std::lround(off)));
+    }
+    const int left = p.x / truth.step * truth.step;
+    const int top = p.y / truth.step * truth.step;
+    for (int y = top; y < std::min(top + truth.step, drawn.height); ++y)
+      for (int x = left; x < std::min(left + truth.step, drawn.width); ++x) map.pixels[at(x, y)] = e;
+  }
+  return map;
+}
 
 LightErrors& LightErrors::operator+=(const LightErrors& o) {
   pixels += o.pixels;
@@ -153,6 +174,8 @@ LightErrors& LightErrors::operator+=(const LightErrors& o) {
   squares += o.squares;
   return *this;
 }
+
+double LightErrors::rms() const { return pixels > 0 ? std::sqrt(squares / (3 * static_cast<double>(pixels))) : 0; }
 
 Image image_of(const DrawnFrame& drawn) {
   Image image(drawn.width, drawn.height, 3);

@@ -24,7 +24,15 @@ struct LightErrors {
   double squares = 0;
 
   LightErrors& operator+=(const LightErrors& o);
+  /// Root mean square over all channels.
+  [[nodiscard]] double rms() const;
 };
+
+/// Of a picture that was drawn as `drawn`. Pixels that show another face are passed over.
+LightErrors light_errors(const LightTruth& truth, const DrawnFrame& drawn);
+
+/// The same as a map: each pixel that was asked stands for those round it.
+ErrorMap light_map(const LightTruth& truth, const DrawnFrame& drawn);
 
 /// Errors over all frames of a point.
 struct PointAccuracy {

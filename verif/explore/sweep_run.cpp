@@ -69,6 +69,8 @@ double wrong_share(const Json& row) {
   return (a.at("visible_wrong").get<double>() + a.at("shadow_wrong").get<double>()) / a.at("pixels").get<double>();
 }
 
+}  // namespace
+
 Json light_json(const LightErrors& e) {
   return {{"pixels", e.pixels},
           {"shadowed", e.shadowed},
@@ -78,8 +80,6 @@ Json light_json(const LightErrors& e) {
           {"lit_worst", e.lit_worst},
           {"psnr", optional_json(psnr(e.squares, e.pixels))}};
 }
-
-}  // namespace
 
 Json error_json(const PictureError& e) {
   const auto pixels = static_cast<double>(e.pixels);

@@ -14,6 +14,7 @@
 #include "cosim/model/model.hpp"
 #include "explore/kept.hpp"
 #include "explore/placement.hpp"
+#include "explore/sweep_accuracy.hpp"
 #include "explore/sweep_points.hpp"
 #include "explore/sweep_scene.hpp"
 #include "explore/synthesis.hpp"
@@ -39,6 +40,8 @@ struct SweepHow {
 
 /// Sums over error maps, by their names in docs/schema/sweep.json.
 nlohmann::ordered_json error_json(const PictureError& e);
+/// Errors of light as JSON, likewise.
+nlohmann::ordered_json light_json(const LightErrors& e);
 
 /// The clocks of a co-simulation beside those that the design foretells for the same words (cost/token_clocks.hpp).
 struct ClockSample {

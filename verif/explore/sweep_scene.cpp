@@ -26,6 +26,9 @@ namespace {
 // spares most of the tests, so a large scene takes less.
 constexpr double kMostTests = 2e9;
 
+// Where rays so much of a pixel beside its middle see something else, the snap may decide.
+constexpr double kSnapped = 1.0 / 128;
+
 template <class T>
 void add(cosim::Sha256& hash, const std::vector<T>& values) {
   hash.add(static_cast<std::uint64_t>(values.size()));
@@ -181,7 +184,7 @@ struct SweepScene::Data {
   Kept<ScreenTruth> truths;
   Kept<DrawnFrame> pictures;
   Kept<std::vector<RayPixel>> rays;
-  Kept<std::vector<LightPixel>> light;
+  Kept<LightTruth> light;
   Kept<PictureError> errors;
 };
 
@@ -324,7 +327,7 @@ std::shared_ptr<const DrawnFrame> SweepScene::finest_picture(int index, const Sw
   });
 }
 
-std::shared_ptr<const std::vector<LightPixel>> SweepScene::light(int index, const SweepPoint& point) {
+std::shared_ptr<const LightTruth> SweepScene::light(int index, const SweepPoint& point) {
   return data_->light.get(fmt::format("{} {}x{}", index, point.width, point.height), [&] {
     data_->step();
     SweepPoint finest_samples = point;
@@ -334,10 +337,13 @@ std::shared_ptr<const std::vector<LightPixel>> SweepScene::light(int index, cons
     const RayFrame f(frame(index), finest_samples);
     const verif::LightReference reference(f.opaque, f.behind, f.lights, f.width, f.height);
     const double pixels = static_cast<double>(point.width) * point.height;
-    int step = 1;
-    while (pixels * (f.light_tests() + static_cast<double>(f.opaque.triangles.size())) / (step * step) > kMostTests)
+    LightTruth out;
+    int& step = out.step;
+    constexpr double kRays = 5;  // of a pixel, with those that tell near ties
+    while (kRays * pixels * (f.light_tests() + static_cast<double>(f.opaque.triangles.size())) / (step * step) >
+           kMostTests)
       ++step;
-    std::vector<LightPixel> all;
+    std::vector<LightPixel>& all = out.pixels;
     for (int y = step / 2; y < point.height; y += step)
       for (int x = step / 2; x < point.width; x += step) all.push_back({.x = x, .y = y});
     Arena arena(data_->draw.threads);
@@ -347,15 +353,15 @@ std::shared_ptr<const std::vector<LightPixel>> SweepScene::light(int index, cons
         RayPixel before{.layers = {}};
         const auto [origin, direction] = verif::pixel_ray(f.camera, all[i].x, all[i].y, f.width, f.height);
         ask_layers(f, origin, direction, INFINITY, before);
-        const verif::ReferencePixel p = reference.pixel(all[i].x, all[i].y);
-        if (!before.layers.empty() || p.face == verif::kNothing) continue;
+        const verif::ReferencePixel p = reference.pixel_with_ties(all[i].x, all[i].y, kSnapped);
+        if (!before.layers.empty() || p.tie || p.face == verif::kNothing) continue;
         all[i].face = p.face;
         all[i].color = p.color;
         all[i].shadowed = p.shadowed;
       }
     });
     std::erase_if(all, [](const LightPixel& p) { return p.face == kNothing; });
-    return all;
+    return out;
   });
 }
 

@@ -49,6 +49,12 @@ struct LightPixel {
   bool shadowed = false;          ///< some light that would arrive is kept out
 };
 
+/// That of pixels that are spread evenly over a picture.
+struct LightTruth {
+  int step = 1;  ///< how far they are apart, across and down
+  std::vector<LightPixel> pixels;
+};
+
 class SweepScene {
  public:
   /// `draw` has the number of frames, at least 1, the threads that work on one, and the scene's name. `base` has the
@@ -88,7 +94,7 @@ class SweepScene {
   /// The truth of light at pixels that are spread evenly over a picture of the point's size, as many as seconds allow.
   /// It is the same for all looks: each area light is 255 samples, worked out one by one. Background is left out, and
   /// so are pixels with something translucent before them.
-  std::shared_ptr<const std::vector<LightPixel>> light(int index, const SweepPoint& point);
+  std::shared_ptr<const LightTruth> light(int index, const SweepPoint& point);
   /// Errors of the picture of alone(point, source) against the finest one. The map is not kept.
   ErrorMap map_of(int index, const SweepPoint& point, ErrorSource source);
   /// The sums over that, kept.

@@ -50,6 +50,15 @@ for e, line, of_sources in zip(errors, lines, alone):
     s = e["sources"]["snapping"]
     assert f'snapping {s["visible_wrong"]}/{s["shadow_wrong"]}/{s["color_wrong"]}' in of_sources, of_sources
     assert told[6] == e["file"] and of_sources.endswith(e["file"].replace("_error", "_error_SOURCE")), (line, of_sources)
+of_light = [l for l in said if l.startswith("  light at the pixel, ")]
+assert len(of_light) == 2
+for e, line in zip(errors, of_light):
+    told = re.match(r"  light at the pixel, of (\d+) pixels (\d+) in some shadow, is off by ([\d.]+) steps of 255 there and ([\d.]+) elsewhere, ([\d.]+) dB: (.*)", line)
+    light = e["light"]
+    assert told and [int(told[1]), int(told[2]), told[6]] == [light["pixels"], light["shadowed"], light["file"]], line
+    assert abs(float(told[3]) - light["shadow_mean"]) < 0.006 and abs(float(told[5]) - light["psnr"]) < 0.06, line
+assert sum(e["light"]["pixels"] for e in errors) == row["light"]["drawn"]["pixels"] > 10000
+assert max(e["light"]["shadow_worst"] for e in errors) == row["light"]["drawn"]["shadow_worst"] > 5
 assert row["visible_wrong"] > 0 and row["color_wrong"] > 0 and row["sources"]["snapping"]["visible_wrong"] > 0
 PY
 for kind in face:visible_wrong shadow:shadow_wrong colour:color_wrong; do

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a diced face is: its parts tile its spans with the very depths, so that nothing but colours and classes moves;
-// where no shadow lies, colours are near the reference of light; and there are no more parts than pixels.
+// Diced faces. Their parts tile their spans with the very depths, so that nothing but colours and classes moves. Where
+// no shadow lies, colours are near the reference of light. And there are no more parts than pixels.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -126,10 +126,9 @@ TEST_CASE("faces, depths and shadows are the same however a frame is diced") {
   }
 }
 
-// Light is looked at every 2 to 4 pixels, and a part is not cut below two: so within one colours are off by no more
-// than
-// --max-shading and half of what light varies by among neighbours. A step more is for the rounding of colours and for
-// the transfer function.
+// Light is looked at every 2 to 4 pixels, and a part is not cut below two. So within a part colours are off by no more
+// than --max-shading and half of the light's change among neighbours. A step more is for the rounding of colours and
+// for the transfer function.
 TEST_CASE("where no shadow lies on the floor its colours are within --max-shading of the reference") {
   for (const LitScene& lit : lit_scenes()) {
     const SceneFrame f = Scene::from(lit.parts).frame(0, 1);

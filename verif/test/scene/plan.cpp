@@ -60,8 +60,8 @@ TEST_CASE("a bound holds against the oracle, and one bit less breaks its inequal
       explore::MeasuredPlan measured(scenes, {std::nullopt, limit, plan.limits.color}, [] {});
       const auto accuracy = measured.measure(plan.config, true);
       REQUIRE(accuracy);
-      CHECK(accuracy->z_max <= plan.z_error);
-      CHECK(accuracy->color_max <= plan.limits.color);
+      CHECK(accuracy->pictures.z_max <= plan.z_error);
+      CHECK(accuracy->pictures.color_max <= plan.limits.color);
 
       // One less breaks the inequality, with the longest span counted anew: fragments may have a longer parent.
       const double pixels = std::max(longest(scenes[0], plan.config), 1.0);

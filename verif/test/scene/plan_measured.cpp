@@ -38,23 +38,27 @@ TEST_CASE("measured: what is kept is within the limits, and every width one less
     CHECK(plan.limits.color == limits.color);
     CHECK(reasoned_of(plan) == reasoned(plan));
     for (const PlanReason& r : plan.reasons) check_one_less(plan, r, scenes[0]);
-    const explore::Accuracy taken = measured.measure(plan.config, true).value();
+    const explore::MeasuredErrors taken = measured.measure(plan.config, true).value();
     CHECK(measured.within(taken));
     const explore::MeasuredPlan::Lowered* lowered = measured.lowered(plan.config);
     REQUIRE(lowered != nullptr);
-    CHECK(lowered->taken_gives.z_max == taken.z_max);
-    CHECK(lowered->taken_gives.color_max == taken.color_max);
-    CHECK(lowered->taken_gives.wrong_ppm() == taken.wrong_ppm());
+    CHECK(lowered->taken_gives.pictures.z_max == taken.pictures.z_max);
+    CHECK(lowered->taken_gives.pictures.color_max == taken.pictures.color_max);
+    CHECK(lowered->taken_gives.light.squares == taken.light.squares);
+    CHECK(taken.light.pixels > 100);
+    CHECK(lowered->taken_gives.pictures.wrong_ppm() == taken.pictures.wrong_ppm());
     for (const Config& least : raw) {
       const auto kept = measured.measure(least, true);
       REQUIRE(kept);
       CHECK(measured.within(*kept));
-      for (int Config::*member : {&Config::z_bits, &Config::z_frac, &Config::color_frac, &Config::shade_frac}) {
+      for (int Config::*member :
+           {&Config::z_bits, &Config::z_frac, &Config::color_frac, &Config::shade_frac, &Config::class_bits}) {
         const ParamInfo& p = info_of(member);
         Config less = least;
         less.*member -= 1;
         if (less.*member < p.min || (member == &Config::color_frac && least.smooth == 0) ||
-            (member == &Config::shade_frac && least.dsf_bits == 0))
+            (member == &Config::shade_frac && least.dsf_bits == 0) ||
+            (member == &Config::class_bits && less.class_bits < 2))
           continue;
         const auto a = measured.measure(less, true);
         CAPTURE(p.name, least.*member);

@@ -105,6 +105,7 @@ TEST_CASE("steps are the stated ones") {
   CHECK(position_step(16) == 16);
   CHECK(four_step(21) == 24);
   CHECK(four_step(24) == 24);
+  CHECK(class_step(5) == 8);
   CHECK(width_step(641) == 1280);
   CHECK(width_step(1280) == 1280);
 }
