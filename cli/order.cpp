@@ -132,11 +132,14 @@ std::string text_of(const OrderTree& tree, const order::Measured& m, const Order
     line("  {:<12} {:>6.1f}  {}\n", name, per_node(bytes), what);
   };
   way("A recursion", m.baseline_a_bytes, fmt::format("over {}, each from the heap", order::BaselineA::kNodeText));
-  way("B preorder", m.baseline_b_bytes, "recursion over packed nodes, with a stack of its own");
+  way("B preorder", m.baseline_b_bytes,
+      "recursion over packed nodes, with a stack of its own: what the fast way is to be held against");
   way("paper's list", m.list_bytes, "[Tanaka 2005]: a linked list, relinked where the eye has changed sides");
   way("fast way", m.fast_bytes, "kage::order's: an array, moved or made again where the eye has changed sides");
-  line("microseconds for an eye step of so many degrees: order alone | with a walk over it; {} steps, median of {}\n",
-       m.rows[0].steps, o.repeats);
+  line(
+      "microseconds for an eye step of so many degrees: order alone | with a walk over it; {} steps, processor time, "
+      "least of {}\n",
+      m.rows[0].steps, o.repeats);
   line("flips: nodes whose side the eye changed; tested: nodes whose side the fast way looked at\n");
   line("{:>7} {:>8} {:>8} {:>17} {:>17} {:>17} {:>17} {:>13} {:>13} {:>9}\n", "degrees", "flips %", "tested %",
        "A recursion", "B preorder", "paper's list", "fast way", "A / fast", "B / fast", "identical");
@@ -280,7 +283,7 @@ void add_order(Program& program, Action& action) {
   c.add_option("--eyes", o->eyes, "eyes for each step angle, default 200")
       .check(whole_number(2, 1000000))
       .type_name("N");
-  c.add_option("--repeats", o->repeats, "times are the median of N runs, default 5")
+  c.add_option("--repeats", o->repeats, "times are the least of N runs, default 5")
       .check(whole_number(1, 1000))
       .type_name("N");
   option_max_fragments(c, *o);

@@ -204,7 +204,7 @@ std::vector<bool> LightTable::limit(const std::vector<Member>& members, const st
   return limited;
 }
 
-// As RESOLVE has them. Those that are limited are rounded down.
+// Entries as RESOLVE has them. A limited one is rounded down.
 void LightTable::make_entries(const std::vector<bool>& limited) {
   for (double& m : middles_) m = std::isfinite(m) ? std::clamp(m, 0.0, 1.0) : 0;
   const int frac = config_->shade_frac;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The ways side by side, for `kage order` and verif/bench. All run in turn in one process over the same eyes. A time is
-// taken from the eye's coordinates to the finished order and summed over all eyes but the first. It is the median of
-// the repeats.
+// the thread's processor time from the eye's coordinates to the finished order, summed over all eyes but the first. It
+// is the least of the repeats: what else the machine does only adds to it.
 #pragma once
 
 #include <cstdint>

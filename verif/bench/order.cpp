@@ -67,7 +67,8 @@ int run(const std::filesystem::path& cgal) {
   }
   grow(cgal / "refined_elephant.off");
   fmt::print(
-      "\nmicroseconds a step, from the eye to the order; in brackets with a walk over it; median of 5 times 199 "
+      "\nmicroseconds a step, from the eye to the order; in brackets with a walk over it; processor time, least of 5 "
+      "times 199 "
       "steps\n");
   fmt::print("{:<22} {:>7} {:>8} {:>19} {:>17} {:>17} {:>17} {:>15} {:>15}\n", "mesh", "degrees", "flips %", "A", "B",
              "paper's list", "fast", "A / fast", "B / fast");

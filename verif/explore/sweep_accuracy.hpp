@@ -28,7 +28,7 @@ struct LightErrors {
   [[nodiscard]] double rms() const;
 };
 
-/// Of a picture that was drawn as `drawn`. Pixels that show another face are passed over.
+/// Errors of light in a picture that was drawn as `drawn`. Pixels that show another face are passed over.
 LightErrors light_errors(const LightTruth& truth, const DrawnFrame& drawn);
 
 /// The same as a map: each pixel that was asked stands for those round it.

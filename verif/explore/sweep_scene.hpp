@@ -49,7 +49,7 @@ struct LightPixel {
   bool shadowed = false;          ///< some light that would arrive is kept out
 };
 
-/// That of pixels that are spread evenly over a picture.
+/// Light of pixels that are spread evenly over a picture.
 struct LightTruth {
   int step = 1;  ///< how far they are apart, across and down
   std::vector<LightPixel> pixels;

@@ -25,7 +25,15 @@ const Sweep = (() => {
   const decibel = (row) => row.accuracy.psnr === null ? "equal" : row.accuracy.psnr.toFixed(1);
   const costText = (row, name) => `${name === "clocks" ? costs.clocks.of(row).toFixed(3) : digits(costs[name].of(row), 0)} ${costs[name].name}` +
       (costs[name].estimated(row) ? " (estimated)" : "");
-  const groupName = (g) => `${g.scene} at ${g.width}x${g.height}`;
+  // A file is named by as much of its path as tells it from the others; the head and the command have all of it.
+  const scenes = [...new Set(groups.map((g) => g.scene))];
+  const end = (path, parts) => path.split("/").slice(-parts).join("/");
+  const shortName = (path) => {
+    let parts = 1;
+    while (end(path, parts) !== path && scenes.some((s) => s !== path && end(s, parts) === end(path, parts))) ++parts;
+    return end(path, parts);
+  };
+  const groupName = (g) => `${shortName(g.scene)} at ${g.width}x${g.height}`;
   const groupOf = (i) => groups.findIndex((g) => g.rows.includes(i));
 
   // ---- limits: a slider over marked values beside a box for any
@@ -403,7 +411,7 @@ const Sweep = (() => {
   // ---- the page
 
   $("command").textContent = "kage sweep";
-  $("name").textContent = [...new Set(groups.map((g) => g.scene))].join(", ");
+  $("name").textContent = scenes.join(", ");
   $("mark").hidden = true;
   $("word").textContent = plural(rows.length, "configuration");
   $("headline").textContent = groups.map((g) => `${groupName(g)}: ${g.rows.length}`).join("; ");
