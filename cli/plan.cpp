@@ -363,8 +363,8 @@ void add_plan(Program& program, Action& action) {
          limits->color = steps;
          limits->color_given = true;
        },
-       "how many steps of 255 a colour may be from exact arithmetic; default 1, or the least that any core is bound to "
-       "keep")
+       "how many steps of 255 a colour may be off: by rounding at most, and root mean square by light that faces or "
+       "shadows share; default 1, or the least that any core is bound to keep")
       .check(whole_number(1, 255))
       .type_name("STEPS");
   c.add_option(

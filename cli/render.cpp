@@ -106,9 +106,11 @@ void add_render(Program& program, Action& action) {
   option_scene(c, *o);
   c.add_option("--out", o->out, "folder for the pictures, default out").type_name("DIR");
   c.add_flag("--exr", o->exr, "write EXR instead of PNG");
-  c.add_flag("--error-map", o->error_map,
-             "show what is wrong in each picture of a scene, by the exact oracle and the finest picture: "
-             "NAME_error.png, and NAME_error_SOURCE.png for each source of error alone; docs/sweep.md has the colours");
+  c.add_flag(
+      "--error-map", o->error_map,
+      "show what is wrong in each picture of a scene, by the exact oracle and the finest picture: NAME_error.png; "
+      "NAME_error_SOURCE.png for each source of error alone; NAME_error_light.png, by each light worked out at the "
+      "pixel; docs/sweep.md has the colours");
   options_of_frames(c, *o);
   option_json(c, o->json);
   c.callback([o, &action] { action = [o] { return run(*o); }; });

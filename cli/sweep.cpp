@@ -247,7 +247,7 @@ void add_sweep(Program& program, Action& action) {
   option_scenes(c, o->inputs);
   c.add_option("--axes", o->axes,
                "an axis and its values, each of which is measured alone about the base: a parameter of the core, "
-               "SUB_BITS, SAMPLES, CLASSES, ORDER or SIZE. Default: some 60 configurations")
+               "SUB_BITS, SAMPLES, CLASSES, MAX_SHADING, ORDER or SIZE. Default: some 60 configurations")
       .expected(1)
       .take_all()
       .type_name("AXIS=V,...");

@@ -90,20 +90,22 @@ class PolygonSpans {
       return emit(part);
     }
     const ShadeCut& cut = g_->shade_cuts[static_cast<std::size_t>(at)];
-    SpanToken front = s;
-    SpanToken behind = s;
+    const auto side = [&](std::int32_t next, int from, int end) {
+      if (from >= end) return;
+      SpanToken part = s;
+      restrict(part, from, end);
+      diced(p, y, next, part, emit);
+    };
     int xl = s.xl;
     int xr = s.xr;
     restrict_to(cut.line, true, y, xl, xr);
-    if (xl < xr) restrict(front, xl, xr);
-    const bool front_is_left = xl == s.xl;
-    if (front_is_left && xl < xr) diced(p, y, cut.front, front, emit);
-    if (xl >= xr)
-      diced(p, y, cut.behind, s, emit);
-    else if (front_is_left && xr < s.xr)
-      restrict(behind, xr, s.xr), diced(p, y, cut.behind, behind, emit);
-    else if (!front_is_left)
-      restrict(behind, s.xl, xl), diced(p, y, cut.behind, behind, emit), diced(p, y, cut.front, front, emit);
+    if (xl == s.xl) {
+      side(cut.front, xl, xr);
+      side(cut.behind, xr, s.xr);
+    } else {
+      side(cut.behind, s.xl, xl);
+      side(cut.front, xl, xr);
+    }
   }
 
   const FrameGeometry* g_;

@@ -32,7 +32,7 @@ std::uint32_t Dicer::add(const FaceShading::Shaded& face, const ClipPoint& p) {
   return static_cast<std::uint32_t>(corners_.size() - 1);
 }
 
-Dicer::Corners Dicer::begin(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
+Dicer::Corners Dicer::begin(const FaceShading::Shaded& face, std::span<const ClipPoint, 3> triangle) {
   corners_.clear();
   Corners t{};
   for (std::size_t i = 0; i < 3; ++i) t[i] = add(face, triangle[i]);
@@ -76,24 +76,27 @@ FaceShading::Part Dicer::part_of(const FaceShading::Shaded& face, const Corners&
   return shading_->part(face, places);
 }
 
+std::optional<Dicer::Window> Dicer::window(const Corners& t) const {
+  const auto [left, right] = std::minmax({at(t[0]).x, at(t[1]).x, at(t[2]).x});
+  const auto [top, bottom] = std::minmax({at(t[0]).y, at(t[1]).y, at(t[2]).y});
+  const Window in{std::max(left, 0.0), std::min(right, static_cast<double>(out_->width)), std::max(top, 0.0),
+                  std::min(bottom, static_cast<double>(out_->height))};
+  if (!(in.x0 < in.x1 && in.y0 < in.y1)) return std::nullopt;
+  return in;
+}
+
 // Whether colour between the corners is too far from light somewhere in the picture.
-bool Dicer::off(const FaceShading::Shaded& face, const Corners& t) const {
+bool Dicer::off(const FaceShading::Shaded& face, const Corners& t, const Window& in) const {
   const Corner& a = at(t[0]);
   const Corner& b = at(t[1]);
   const Corner& c = at(t[2]);
   const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
-  const auto [left, right] = std::minmax({a.x, b.x, c.x});
-  const auto [top, bottom] = std::minmax({a.y, b.y, c.y});
-  const double x0 = std::max(left, 0.0);
-  const double x1 = std::min(right, static_cast<double>(out_->width));
-  const double y0 = std::max(top, 0.0);
-  const double y1 = std::min(bottom, static_cast<double>(out_->height));
-  if (!(x0 < x1 && y0 < y1) || !(std::abs(area) > 0)) return false;
+  if (!(std::abs(area) > 0)) return false;
   const auto is_off = [&](const glm::dvec3& part) {
     const ClipPoint p = between(t, part);
     const double x = p.sx / p.q;
     const double y = p.sy / p.q;
-    if (!(x >= x0 && x <= x1 && y >= y0 && y <= y1)) return false;
+    if (!(x >= in.x0 && x <= in.x1 && y >= in.y0 && y <= in.y1)) return false;
     const glm::dvec3 linear = a.clip.color * part[0] + b.clip.color * part[1] + c.clip.color * part[2];
     const glm::dvec3 d = glm::abs(shading_->color_at(face, view_->place(p)) - linear);
     return std::max({d.x, d.y, d.z}) > max_shading_;
@@ -102,20 +105,37 @@ bool Dicer::off(const FaceShading::Shaded& face, const Corners& t) const {
   for (const glm::dvec3& part :
        {glm::dvec3{kThird, kThird, kThird}, glm::dvec3{0.5, 0.5, 0}, glm::dvec3{0, 0.5, 0.5}, glm::dvec3{0.5, 0, 0.5}})
     if (is_off(part)) return true;
-  const double step = std::clamp(std::floor(std::max(x1 - x0, y1 - y0) / kPlaces), 2.0, double{kMostStep});
-  for (double y = std::ceil(y0 / step) * step; y < y1; y += step)
-    for (double x = std::ceil(x0 / step) * step; x < x1; x += step) {
+  const double step = std::clamp(std::floor(std::max(in.x1 - in.x0, in.y1 - in.y0) / kPlaces), 2.0, double{kMostStep});
+  for (double y = std::ceil(in.y0 / step) * step; y < in.y1; y += step) {
+    // Where the line meets the edges: a long and thin part is no reason to look at all that its window has.
+    double from = in.x1;
+    double to = in.x0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner& p = at(t[k]);
+      const Corner& q = at(t[(k + 1) % 3]);
+      if (!(std::min(p.y, q.y) <= y && y <= std::max(p.y, q.y)) || p.y == q.y) continue;
+      const double x = p.x + (q.x - p.x) * ((y - p.y) / (q.y - p.y));
+      from = std::min(from, x);
+      to = std::max(to, x);
+    }
+    for (double x = std::ceil(std::max(from, in.x0) / step) * step; x <= std::min(to, in.x1); x += step) {
       const double v = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / area;
       const double w = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / area;
       if (v >= 0 && w >= 0 && v + w <= 1 && is_off({1 - v - w, v, w})) return true;
     }
+  }
   return false;
 }
+
+// Whether a class of its own is worth while.
+bool Dicer::is_large(const Corners& t) const { return longest_edge(t).length >= kLeastClassEdge && window(t); }
 
 bool Dicer::needs_cut(const FaceShading::Shaded& face, const Corners& t) {
   const double length = longest_edge(t).length;
   if (length < kLeastEdge || out_->shades.size() >= kMostShades) return false;
-  return off(face, t) || (face.normal_class > 0 && length >= kLeastClassEdge && part_of(face, t).error > max_shading_);
+  const auto in = window(t);
+  if (!in) return false;
+  return off(face, t, *in) || (face.normal_class > 0 && is_large(t) && part_of(face, t).error > max_shading_);
 }
 
 std::int32_t Dicer::shade(const FaceShading::Shaded& face, const Corners& t) {
@@ -151,10 +171,11 @@ std::int32_t Dicer::cut(const FaceShading::Shaded& face, const Corners& t) {
   const std::int32_t behind = part(face, {middle, t[next], third});
   out_->shade_cuts[number].front = front;
   out_->shade_cuts[number].behind = behind;
+  corners_.erase(corners_.begin() + middle, corners_.end());  // no other part has it
   return static_cast<std::int32_t>(number);
 }
 
-bool Dicer::may_cut(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) const {
+bool Dicer::may_cut(const FaceShading::Shaded& face, std::span<const ClipPoint, 3> triangle) const {
   if (max_shading_ == 0 || !face.varies) return false;
   for (std::size_t k = 0; k < 3; ++k) {
     const ClipPoint& a = triangle[k];
@@ -166,14 +187,23 @@ bool Dicer::may_cut(const FaceShading::Shaded& face, const std::array<ClipPoint,
   return false;
 }
 
-bool Dicer::cuts(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
-  return may_cut(face, triangle) && needs_cut(face, begin(face, triangle));
+bool Dicer::differs(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
+  if (!may_cut(face, triangle)) return false;
+  const Corners t = begin(face, triangle);
+  return needs_cut(face, t) || (is_large(t) && part_of(face, t).normal_class != face.normal_class);
 }
 
-std::int32_t Dicer::dice(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
+std::int32_t Dicer::dice(const FaceShading::Shaded& face, std::span<ClipPoint, 3> triangle,
+                         std::uint32_t& normal_class) {
   if (!may_cut(face, triangle)) return -1;
   const Corners t = begin(face, triangle);
-  return needs_cut(face, t) ? cut(face, t) : -1;
+  if (needs_cut(face, t)) return cut(face, t);
+  if (!is_large(t)) return -1;
+  const FaceShading::Part part = part_of(face, t);
+  if (part.normal_class == face.normal_class) return -1;
+  normal_class = part.normal_class;
+  for (std::size_t i = 0; i < 3; ++i) triangle[i].color = glm::min(at(t[i]).clip.color * part.factor, glm::dvec3(255));
+  return -1;
 }
 
 }  // namespace kage

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "geometry/face_shading.hpp"
@@ -21,12 +22,13 @@ class Dicer {
   Dicer(const View& view, const ScreenFaces& faces, const FaceShading& shading, int max_shading, FrameGeometry& out)
       : view_(&view), faces_(&faces), shading_(&shading), max_shading_(max_shading), out_(&out) {}
 
-  /// Dices a triangle of a face between three points that clipping has left, with the colours of these.
-  /// @return ScreenPolygon::shade_cut: the first cut, or -1 where none is needed
-  std::int32_t dice(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
+  /// Dices a triangle of a face between three points that clipping has left, with the colours of these. Where no cut is
+  /// needed it is a part by itself: then `triangle` and the class are those of the part.
+  /// @return ScreenPolygon::shade_cut: the first cut, or -1
+  std::int32_t dice(const FaceShading::Shaded& face, std::span<ClipPoint, 3> triangle, std::uint32_t& normal_class);
 
-  /// Whether dice() would cut it.
-  [[nodiscard]] bool cuts(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
+  /// Whether a triangle is not what the face is all over: dice() would cut it, or give it another class.
+  [[nodiscard]] bool differs(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
 
  private:
   /// A corner on the screen, with the colour of its place.
@@ -39,9 +41,9 @@ class Dicer {
   using Corners = std::array<std::uint32_t, 3>;  // into corners_
 
   /// It is not too small, and colour varies.
-  [[nodiscard]] bool may_cut(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) const;
+  [[nodiscard]] bool may_cut(const FaceShading::Shaded& face, std::span<const ClipPoint, 3> triangle) const;
   [[nodiscard]] const Corner& at(std::uint32_t corner) const { return corners_[corner]; }
-  [[nodiscard]] Corners begin(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
+  [[nodiscard]] Corners begin(const FaceShading::Shaded& face, std::span<const ClipPoint, 3> triangle);
   std::uint32_t add(const FaceShading::Shaded& face, const ClipPoint& p);
   [[nodiscard]] ClipPoint between(const Corners& t, const glm::dvec3& part) const;
   /// The edge that begins at a corner and is the longest, and its length.
@@ -50,7 +52,16 @@ class Dicer {
     double length;
   };
   [[nodiscard]] Edge longest_edge(const Corners& t) const;
-  [[nodiscard]] bool off(const FaceShading::Shaded& face, const Corners& t) const;
+  /// The rectangle of the picture in which a part lies.
+  struct Window {
+    double x0;
+    double x1;
+    double y0;
+    double y1;
+  };
+  [[nodiscard]] std::optional<Window> window(const Corners& t) const;
+  [[nodiscard]] bool off(const FaceShading::Shaded& face, const Corners& t, const Window& in) const;
+  [[nodiscard]] bool is_large(const Corners& t) const;
   [[nodiscard]] bool needs_cut(const FaceShading::Shaded& face, const Corners& t);
   [[nodiscard]] FaceShading::Part part_of(const FaceShading::Shaded& face, const Corners& t);
   std::int32_t part(const FaceShading::Shaded& face, const Corners& t);

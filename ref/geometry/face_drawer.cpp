@@ -27,6 +27,25 @@ FaceDrawer::FaceDrawer(const SceneFrame& frame, std::vector<EyePoint> points, co
       points_(std::move(points), faces_),
       drawn_(frame.polygons.size()) {}
 
+void FaceDrawer::draw_unseen(std::uint32_t index) {
+  diced_ = false;
+  draw(index);
+  diced_ = true;
+}
+
+FaceDrawer::Mark FaceDrawer::mark() const {
+  return {out_->polygons.size(), out_->vertices.size(), out_->color_planes.size(), out_->shade_cuts.size(),
+          out_->shades.size()};
+}
+
+void FaceDrawer::undo_to(const Mark& m) {
+  out_->polygons.resize(m.polygons);
+  out_->vertices.resize(m.vertices);
+  out_->color_planes.resize(m.color_planes);
+  out_->shade_cuts.resize(m.shade_cuts);
+  out_->shades.resize(m.shades);
+}
+
 void FaceDrawer::draw(std::uint32_t index) {
   const Polygon& face = frame_->polygons[index];
   const auto corners = frame_->outline(face);
@@ -70,8 +89,9 @@ void FaceDrawer::undo(std::uint32_t index) {
 
 // Whether one colour serves all of a face whose corners have one.
 bool FaceDrawer::is_linear(const FaceShading::Shaded& shaded) {
+  if (!diced_) return true;
   for (std::size_t i = 1; i + 1 < polygon_.size(); ++i)
-    if (dicer_.cuts(shaded, {polygon_[0], polygon_[i], polygon_[i + 1]})) return false;
+    if (dicer_.differs(shaded, {polygon_[0], polygon_[i], polygon_[i + 1]})) return false;
   return true;
 }
 
@@ -84,8 +104,8 @@ void FaceDrawer::add_fan(const ScreenPolygon& base, const FaceShading::Shaded& s
   faces_.snap_outline(polygon_, snapped_);
   const auto add_piece = [&](std::size_t apex, std::size_t i, bool whole) {
     ScreenPolygon piece = base;
-    const std::vector<ClipPoint> triangle{polygon_[apex], polygon_[(apex + i) % n], polygon_[(apex + i + 1) % n]};
-    if (!whole) piece.shade_cut = dicer_.dice(shaded, {triangle[0], triangle[1], triangle[2]});
+    std::vector<ClipPoint> triangle{polygon_[apex], polygon_[(apex + i) % n], polygon_[(apex + i + 1) % n]};
+    if (!whole && diced_) piece.shade_cut = dicer_.dice(shaded, std::span<ClipPoint, 3>(triangle), piece.normal_class);
     piece.color_planes = static_cast<std::int32_t>(out_->color_planes.size());
     for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_.color_plane(triangle, c));
     if (whole)

@@ -30,6 +30,19 @@ class FaceDrawer {
 
   /// Appends what is seen of the face to the polygons, and notes which they are.
   void draw(std::uint32_t index);
+  /// Likewise a face that is a cap alone, whose colours nobody sees.
+  void draw_unseen(std::uint32_t index);
+
+  /// What has been drawn until now, and back to that: faces after it are not to be drawn.
+  struct Mark {
+    std::size_t polygons;
+    std::size_t vertices;
+    std::size_t color_planes;
+    std::size_t shade_cuts;
+    std::size_t shades;
+  };
+  [[nodiscard]] Mark mark() const;
+  void undo_to(const Mark& mark);
 
   /// The face that was drawn last is not to be drawn: its polygon, one, goes again.
   void undo(std::uint32_t index);
@@ -51,6 +64,7 @@ class FaceDrawer {
   Dicer dicer_;
   FramePoints points_;
   std::vector<DrawnRange> drawn_;
+  bool diced_ = true;
   // Outline of the face being drawn:
   std::vector<ClipPoint> polygon_;
   std::vector<ScreenVertex> snapped_;

@@ -40,15 +40,15 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
            false,
            false,
            0,
+           {1, 1, 1},
            {0, 0, 0},
            false};
   s.lit = !t.unlit && s.side.takes_shadow(*lights_);
   s.classed = s.lit && (t.alpha == 255 || config_->translucency == 0);
-  glm::dvec3 factor{1, 1, 1};
   if (s.classed) {
     const std::uint32_t number = table_->number(s.side);
     s.lit = number > 0;
-    factor = table_->before_own_shadow(s.side, number);
+    s.factor = table_->before_own_shadow(s.side, number);
     if (derived::has_table(*config_)) s.normal_class = number;
   }
 
@@ -60,7 +60,7 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
     if (as_before)
       corners[i].color = corners[i - 1].color;
     else
-      corners[i].color = glm::min(color_of(s, s.surface.corner(i)) * factor, glm::dvec3(255));
+      corners[i].color = glm::min(color_of(s, s.surface.corner(i)) * s.factor, glm::dvec3(255));
     s.mean += corners[i].color;
   }
   s.same_color =
@@ -74,22 +74,18 @@ FaceShading::Place FaceShading::place(const Shaded& face, const glm::dvec3& at, 
   p.normal_class = table_->nearest(p.loss);
   const glm::dvec3 asked = color * table_->about_own_shadow(face.side, p.normal_class);
   if (std::max({asked.x, asked.y, asked.z}) <= 255) return p;
-  double least = error_of(face, p, p.normal_class);
+  double least = error_of(face, p, p.normal_class).weighed();
   for (std::uint32_t number = 1; number <= table_->classes(); ++number)
-    if (const double error = error_of(face, p, number); error < least) {
+    if (const double error = error_of(face, p, number).weighed(); error < least) {
       least = error;
       p.normal_class = number;
     }
   return p;
 }
 
-// In the full shadow of a light, or in none, where the colour that the face's own shadow asks for is above white. The
-// latter shows wherever the face does, the former only where something casts a shadow on it.
-double FaceShading::error_of(const Shaded& face, const Place& at, std::uint32_t number) const {
-  const glm::dvec3 factor = table_->about_own_shadow(face.side, number);
-  constexpr double kAlways = 16;
-  const glm::dvec3 lost = kAlways * (at.color - glm::min(at.color, 255.0 / factor));
-  return std::max({table_->error_of(face.side, at.loss, number), lost.x, lost.y, lost.z});
+FaceShading::Error FaceShading::error_of(const Shaded& face, const Place& at, std::uint32_t number) const {
+  const glm::dvec3 lost = at.color - glm::min(at.color, 255.0 / table_->about_own_shadow(face.side, number));
+  return {table_->error_of(face.side, at.loss, number), std::max({lost.x, lost.y, lost.z})};
 }
 
 FaceShading::Part FaceShading::part(const Shaded& face, const std::array<const Place*, 3>& corners) const {
@@ -101,9 +97,10 @@ FaceShading::Part FaceShading::part(const Shaded& face, const std::array<const P
       double sum = 0;
       double more = 0;
       for (const Place* at : corners) {
-        const double error = error_of(face, *at, of->normal_class);
-        sum += error;
-        if (of->normal_class != at->normal_class) more = std::max(more, error - error_of(face, *at, at->normal_class));
+        const Error error = error_of(face, *at, of->normal_class);
+        sum += error.weighed();
+        if (of->normal_class != at->normal_class)
+          more = std::max(more, error.most() - error_of(face, *at, at->normal_class).most());
       }
       if (sum >= least * (1 - 0x1p-20)) continue;  // the first, but for rounding
       least = sum;

@@ -2,6 +2,7 @@
 // A face's shading: the colours of its corners and places, and its class.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -32,6 +33,7 @@ class FaceShading {
     bool lit;                    ///< shadows take from its colour
     bool classed;                ///< its class says how much: of no translucent face, since TP has none
     std::uint32_t normal_class;  ///< into the light table, or 0
+    glm::dvec3 factor;           ///< of color_at(), for its own shadow
     glm::dvec3 mean;             ///< of the corners' colours
     bool same_color;             ///< at all of them
   };
@@ -64,7 +66,16 @@ class FaceShading {
   [[nodiscard]] Part part(const Shaded& face, const std::array<const Place*, 3>& corners) const;
 
  private:
-  [[nodiscard]] double error_of(const Shaded& face, const Place& at, std::uint32_t number) const;
+  /// How far a colour is off with a class, in steps of 255.
+  struct Error {
+    double shadowed;  ///< in the full shadow of a light
+    double lit;       ///< in none: what the face's own shadow asks for above white
+
+    [[nodiscard]] double most() const { return std::max(shadowed, lit); }
+    /// The latter shows wherever the face does, the former only where something casts a shadow on it.
+    [[nodiscard]] double weighed() const { return std::max(shadowed, 16 * lit); }
+  };
+  [[nodiscard]] Error error_of(const Shaded& face, const Place& at, std::uint32_t number) const;
   [[nodiscard]] glm::dvec3 color_of(const Shaded& face, const SurfacePoint& at) const;
 
   const SceneFrame* frame_;

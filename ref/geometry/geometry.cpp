@@ -151,13 +151,22 @@ FrameGeometry build(const Task& task, int width, int height, TranslucentOrder& o
   const std::vector<std::uint32_t> turned_away = draw_all(task, drawer, out);
   out.drawn = static_cast<std::uint32_t>(out.polygons.size());
   if (config.dsf_bits > 0) {
-    for (const std::uint32_t i : turned_away) drawer.draw(i);  // what is turned away may still be a cap
+    for (const std::uint32_t i : turned_away) drawer.draw_unseen(i);  // what is turned away may still be a cap
     VolumeMaker maker(frame, view, clipper, drawer.points().eye, drawer.drawn(), look.far_ends, out);
     make_volumes(task, lights, view.near(), maker, shadows, out);
   }
   if (config.translucency > 0) draw_translucent(task, view, drawer, order, out);
   return out;
 }
+
+}  // namespace
+
+namespace {
+
+// Light within a face is looked at in so many parts of each edge; in more where the face is a large part of all.
+constexpr int kFewParts = 2;
+constexpr int kManyParts = 16;
+constexpr double kLargeFace = 1.0 / 256;
 
 }  // namespace
 
@@ -171,13 +180,39 @@ LightDemand light_demand(const SceneFrame& frame, const Config& config, const Lo
   LightDemand demand{table.error(), 0};
   if (std::all_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return l.directional; }))
     return demand;
+  const auto area_of = [&](std::uint32_t i) {
+    const auto outline = frame.outline(frame.polygons[i]);
+    double area = 0;
+    for (std::size_t k = 1; k + 1 < outline.size(); ++k) {
+      const glm::dvec3& a = frame.vertices[outline[0]];
+      area += glm::length(glm::cross(frame.vertices[outline[k]] - a, frame.vertices[outline[k + 1]] - a));
+    }
+    return area;
+  };
+  double all = 0;
+  for (std::uint32_t i = 0; i < frame.polygons.size(); ++i) all += area_of(i);
   std::vector<ClipPoint> corners;
   for (std::uint32_t i = 0; i < frame.polygons.size(); ++i) {
-    corners.resize(frame.polygons[i].count);
-    const glm::dvec3 mean = shading.shade(i, corners).mean;
-    for (const ClipPoint& corner : corners)
+    const auto outline = frame.outline(frame.polygons[i]);
+    corners.resize(outline.size());
+    const FaceShading::Shaded face = shading.shade(i, corners);
+    const auto see = [&](const glm::dvec3& color) {
       for (int c = 0; c < 3; ++c)
-        demand.color_spread = std::max(demand.color_spread, std::abs(corner.color[c] - mean[c]));
+        demand.color_spread = std::max(demand.color_spread, std::abs(color[c] - face.mean[c]));
+    };
+    for (const ClipPoint& corner : corners) see(corner.color);
+    if (!face.varies) continue;
+    const int parts = area_of(i) > all * kLargeFace ? kManyParts : kFewParts;
+    for (std::size_t k = 1; k + 1 < outline.size(); ++k) {
+      const glm::dvec3& a = frame.vertices[outline[0]];
+      const glm::dvec3 u = (frame.vertices[outline[k]] - a) / static_cast<double>(parts);
+      const glm::dvec3 v = (frame.vertices[outline[k + 1]] - a) / static_cast<double>(parts);
+      for (int y = 0; y <= parts; ++y)
+        for (int x = 0; x + y <= parts; ++x)
+          see(glm::min(
+              shading.color_at(face, a + static_cast<double>(x) * u + static_cast<double>(y) * v) * face.factor,
+              glm::dvec3(255)));
+    }
   }
   return demand;
 }

@@ -149,10 +149,12 @@ std::vector<LightTable::Part> LightTable::parts_of(const FaceSide& side) const {
     const std::array<SurfacePoint, 3> corners{a, b, c};
     return Part{corners, loss(side, corners), count++};
   };
-  // Parts that chance puts in another order, where they are alike, would be others in another unit of length.
-  const auto less = [](const Part& a, const Part& b) {
-    const auto of_a = static_cast<float>(a.loss.spread);
-    const auto of_b = static_cast<float>(b.loss.spread);
+  // Rounded, and as a share of the whole: rounding alone does not put parts that are alike in another order, and a unit
+  // of length neither.
+  const double whole = parts[0].loss.area;
+  const auto less = [whole](const Part& a, const Part& b) {
+    const auto of_a = static_cast<float>(a.loss.spread / whole);
+    const auto of_b = static_cast<float>(b.loss.spread / whole);
     return of_a != of_b ? of_a < of_b : a.number > b.number;
   };
   parts.clear();
@@ -265,9 +267,10 @@ LightTable::Loss LightTable::loss(const FaceSide& side, std::span<const SurfaceP
   if (shadows_itself(side) &&
       std::any_of(side.sides.begin(), side.sides.end(), [&](std::int8_t s) { return s * side.eye_side < 0; })) {
     out.brightest = lit_color(side, middle);
-    for (const SurfacePoint& corner : outline) out.brightest = glm::max(out.brightest, lit_color(side, corner));
+    for (std::size_t i = 0; i < outline.size() && outline.size() > 1; ++i)
+      out.brightest = glm::max(out.brightest, lit_color(side, outline[i]));
   }
-  if (alike && !lighting_->depends_on_place(side.sides, side.eye_side)) {
+  if (outline.size() == 1 || (alike && !lighting_->depends_on_place(side.sides, side.eye_side))) {
     add_loss(side, middle, area, out);
   } else {
     add_loss(side, middle, area * kMiddleWeight, out);

@@ -49,15 +49,13 @@ SpanReason PolyhedronDrawer::reason_of(const Component& part) const {
 SpanReason PolyhedronDrawer::draw(std::uint32_t component, std::vector<std::uint32_t>& turned_away) {
   const Component& part = frame_->components[component];
   if (const SpanReason reason = reason_of(part); reason != SpanReason::none) return reason;
-  const std::size_t polygons = out_->polygons.size();
-  const std::size_t vertices = out_->vertices.size();
+  const FaceDrawer::Mark before = drawer_->mark();
+  const std::size_t polygons = before.polygons;
   const std::size_t turned_away_before = turned_away.size();
   for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
     drawer_->draw(i);
     if (out_->polygons.back().color_planes >= 0) {
-      out_->color_planes.resize(static_cast<std::size_t>(out_->polygons[drawer_->drawn()[i].first].color_planes));
-      out_->polygons.resize(polygons);
-      out_->vertices.resize(vertices);
+      drawer_->undo_to(before);
       turned_away.resize(turned_away_before);
       return SpanReason::colors;
     }

@@ -3,8 +3,11 @@
 // Places of a face: where light is worked out.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "kage/scene.hpp"
 
@@ -30,6 +33,12 @@ class FaceSurface {
     origin_ = frame.vertices[outline_[0]];
     u_ = frame.vertices[outline_[1]] - origin_;
     v_ = frame.vertices[outline_[2]] - origin_;
+    // In units of the longest of their numbers, whose fourth power is neither 0 nor infinite.
+    for (int k = 0; k < 3; ++k) unit_ = std::max({unit_, std::abs(u_[k]), std::abs(v_[k])});
+    if (unit_ > 0) {
+      u_ /= unit_;
+      v_ /= unit_;
+    }
     normal_ = glm::cross(u_, v_);
     squared_ = glm::dot(normal_, normal_);
   }
@@ -48,7 +57,7 @@ class FaceSurface {
     const ShadingVertex& first = frame_->shading[triangle_->shading[0]];
     SurfacePoint p{point, first.normal, first.color};
     if (alike_ || !(squared_ > 0)) return p;
-    const glm::dvec3 from = point - origin_;
+    const glm::dvec3 from = (point - origin_) / unit_;
     const double b = glm::dot(glm::cross(from, v_), normal_) / squared_;
     const double c = glm::dot(glm::cross(u_, from), normal_) / squared_;
     const std::array<double, 3> part{1 - b - c, b, c};
@@ -69,6 +78,7 @@ class FaceSurface {
   const Triangle* triangle_;
   std::span<const std::uint32_t> outline_;
   bool alike_;
+  double unit_ = 0;
   glm::dvec3 origin_;
   glm::dvec3 u_;
   glm::dvec3 v_;

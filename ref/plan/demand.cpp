@@ -60,6 +60,17 @@ int columns(const FrameGeometry& g, const ScreenPolygon& p) {
   return std::max(0, end - first);
 }
 
+}  // namespace
+
+int longest_diced(const FrameGeometry& g) {
+  int most = 0;
+  for (std::uint32_t i = 0; i < g.drawn; ++i)
+    if (g.polygons[i].shade_cut >= 0) most = std::max(most, columns(g, g.polygons[i]));
+  return most;
+}
+
+namespace {
+
 using GroupKey = std::vector<std::pair<std::uint32_t, int>>;
 
 /// Adds what shadows take in a frame, each group once.
@@ -91,7 +102,9 @@ void add_geometry(const FrameGeometry& g, const Config& config, const PlanPlace&
   std::map<std::uint32_t, int> volumes;
   for (const ShadowVolume& v : g.volumes) ++volumes[v.sample];
   for (const auto& [sample, count] : volumes) out.volumes.raise(count, at);
-  // A fragment goes on where its face began, whatever lies before it.
+  // A fragment goes on where its face began, whatever lies before it; so does a part of a diced face, but for its
+  // colour.
+  if (const int most = longest_diced(g); most > 0) out.depth_span.raise(most, at);
   for (const ScreenFragment& f : g.fragments)
     for (std::uint32_t i = f.first_polygon; i < f.first_polygon + f.polygon_count; ++i) {
       const int most = columns(g, g.polygons[i]);

@@ -90,6 +90,10 @@ Config finest(const Features& features, int dsf_bits, int units);
 WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& features, int dsf_bits,
                     const FrameStep& step);
 
+/// The most columns of the picture that an opaque polygon has which is diced: its parts' depth is that of a span so
+/// long.
+int longest_diced(const FrameGeometry& geometry);
+
 UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& features, const FrameStep& step);
 
 /// The front end that the scenes need in a core of this configuration, whatever its ACTIVE.

@@ -73,10 +73,9 @@ void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles
   if (!point_.look.cull) {  // rays know nothing of it
     const auto truth = scene_->light(index, point_);
     light = light_errors(*truth, drawn);
-    save_image(files, lit, picture_of(light_map(*truth, drawn), drawn));
-  } else if (std::filesystem::exists(lit)) {
-    files.remove(lit);
+    if (light.pixels > 0) save_image(files, lit, picture_of(light_map(*truth, drawn), drawn));
   }
+  if (light.pixels == 0 && std::filesystem::exists(lit)) files.remove(lit);
   report::Json j;
   j["frame"] = index;
   j["pixels"] = all.pixels;

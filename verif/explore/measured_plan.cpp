@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <cmath>
+#include <deque>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -30,7 +31,7 @@ struct Judged {
   const DrawOptions* draw = nullptr;
   ScreenTruth truth;
   std::shared_ptr<const LightTruth> light;
-  std::map<std::array<int, 4>, DrawnFrame> finest;  // by what decides how light is shown
+  std::deque<std::pair<std::array<int, 4>, DrawnFrame>> finest;  // by what decides how light is shown
 };
 
 /// Parameters that decide how light is shown. Colours are compared between pictures that share them; how wrong these
@@ -57,16 +58,13 @@ struct Width {
 int fraction_step(int v) { return plan::position_step(std::max(v, 1)); }
 int shade_step(int v) { return std::min(plan::four_step(v), kGreatest.shade_frac); }
 
-/// One bit is no table.
-int class_bits_step(int v) { return v > 1 ? plan::class_step(v) : v; }
-
 /// The widths that may be lowered of a configuration, each with its least value; classes, if light can be kept.
 std::vector<Width> widths_of(const Config& c, bool classes = true) {
   std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
   if (c.smooth > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
   if (c.dsf_bits > 0) list.push_back({&Config::shade_frac, 1, shade_step});
   // With one bit there is no table, which several lights need.
-  if (c.class_bits > 1 && classes) list.push_back({&Config::class_bits, c.lights > 1 ? 2 : 1, class_bits_step});
+  if (c.class_bits > 1 && classes) list.push_back({&Config::class_bits, 2, plan::class_step});
   return list;
 }
 
@@ -79,20 +77,32 @@ struct MeasuredPlan::Data {
   plan::Features features;
   std::vector<Judged> frames;  // empty until they are asked for
   std::uint64_t pixels = 0;
+  std::uint64_t light_pixels = 0;
   bool keeps_light = true;  // the finest pictures are within the limit of light
   std::vector<Lowered> lowered;
 
   /// The picture of a frame with the finest widths, light being shown as `config` does.
   const DrawnFrame& finest_picture(Judged& of, const Config& config) const {
-    const auto [at, fresh] = of.finest.try_emplace(light_of(config));
-    if (fresh) {
-      Config c = finest_of(plan::finest(features, config.dsf_bits, 0));
-      std::tie(c.smooth, c.count_bits, c.lights, c.class_bits) =
-          std::tie(config.smooth, config.count_bits, config.lights, config.class_bits);
-      c.color_frac = c.smooth > 0 ? kGreatest.color_frac : 0;
-      at->second = draw(of.frame, c, *of.draw);
-    }
-    return at->second;
+    const auto kept =
+        std::find_if(of.finest.begin(), of.finest.end(), [&](const auto& f) { return f.first == light_of(config); });
+    if (kept != of.finest.end()) return kept->second;
+    Config c = finest_of(plan::finest(features, features.needs.shadows ? 1 : 0, 0));
+    std::tie(c.smooth, c.count_bits, c.lights, c.class_bits) =
+        std::tie(config.smooth, config.count_bits, config.lights, config.class_bits);
+    c.color_frac = c.smooth > 0 ? kGreatest.color_frac : 0;
+    DrawnFrame drawn = draw(of.frame, c, *of.draw);
+    // Widths are lowered one after the other: what the last two showed light by is asked for again.
+    constexpr std::size_t kKept = 2;
+    while (of.finest.size() >= kKept) of.finest.erase(of.finest.begin());
+    return of.finest.emplace_back(light_of(config), std::move(drawn)).second;
+  }
+
+  /// Whether all frames may be within the limits although some are missing: errors are counted as if these had none.
+  [[nodiscard]] bool may_be_within(const MeasuredErrors& some) const {
+    const Accuracy& a = some.pictures;
+    const double light = light_pixels > 0 ? std::sqrt(some.light.squares / (3 * static_cast<double>(light_pixels))) : 0;
+    return (light <= limits.color || !keeps_light) && a.z_max <= limits.z && a.color_max <= limits.color &&
+           (!limits.wrong || a.wrong_ppm(pixels) <= *limits.wrong);
   }
 
   void judge_all() {
@@ -121,6 +131,7 @@ struct MeasuredPlan::Data {
         j.truth = screen_truth(g, config, scene.draw.threads);
         if (!scene.draw.look.cull) j.light = lit.light(i, point);
         pixels += j.truth.pixels.size();
+        if (j.light) light_pixels += j.light->pixels.size();
         if (j.light) light += light_errors(*j.light, finest_picture(j, config));
         frames.push_back(std::move(j));
       }
@@ -158,7 +169,7 @@ std::optional<MeasuredErrors> MeasuredPlan::measure(const Config& config, bool w
     } catch (const Error&) {
       return std::nullopt;
     }
-    if (!whole && !within(all)) break;
+    if (!whole && !data_->may_be_within(all)) break;
   }
   return all;
 }
@@ -238,8 +249,10 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
         lowered = true;
       }
       if (at.*w.member == w.least)
-        one_less[k] =
-            w.least == info_of(w.member).min ? "; no core has fewer" : fmt::format("; {} {}", w.least - 1, kCannot);
+        one_less[k] = w.least == info_of(w.member).min ? "; no core has fewer"
+                      : w.member == &Config::class_bits && at.lights == 1
+                          ? std::string("; 1 is no table, and costed where light needs none")
+                          : fmt::format("; {} {}", w.least - 1, kCannot);
     }
   }
   Lowered found{at, measure(at, true).value(), at, {}};

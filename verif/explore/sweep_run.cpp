@@ -103,14 +103,17 @@ PointWords words_of(SweepScene& scene, const SweepPoint& point) {
     auto& words = out.frames.emplace_back();
     counter.start(point.width);
     tokens.start();
-    frames.frame(i, [&](std::span<const std::uint32_t> piece) {
+    FrameParts parts;
+    const auto take = [&](std::span<const std::uint32_t> piece) {
       words.insert(words.end(), piece.begin(), piece.end());
       tokens.feed(piece, [&](const Token& t) {
         counter.token(t);
         if (t.kind == Kind::SEG) out.longest_depth = std::max(out.longest_depth, t.segment.dx);
         if (info_of(t.kind).depth) out.longest_depth = std::max(out.longest_depth, t.span.xr - t.span.xl);
       });
-    });
+    };
+    frames.frame(i, take, parts);
+    out.longest_depth = std::max(out.longest_depth, plan::longest_diced(parts.geometry));
     out.words += words.size();
     out.foretold = std::accumulate(counter.lines().begin(), counter.lines().end(), out.foretold);
     hash.add(static_cast<std::uint64_t>(words.size()));

@@ -275,7 +275,8 @@ struct GeometryOptions {
 struct LightDemand {
   /// In shadow, because faces share what shadows take: root mean square over those that casters may keep light from.
   double share_error = 0;
-  /// With one colour a polygon: most that a corner's is from the mean of them all.
+  /// With one colour a polygon, the mean of its corners': most that light is from it, at corners and on a grid between
+  /// them. A large face has a grid of 16 parts a side, so that a narrower cone may be missed.
   double color_spread = 0;
 };
 

@@ -128,7 +128,7 @@ grep -qE '^Z_BITS: .*# measured: [0-9]+ give [0-9.e+-]+ ppm wrong, .*; [0-9]+ gi
 # The head tells of the widths that are printed, and what the reasons tell of where that is another.
 expect 0 "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --json measured.json
 grep -qE '^Z_BITS: .*; [0-9]+ give .* \(over --max-z 5.9[0-9.e-]+\)' stdout || fail "$(grep Z_BITS stdout)"
-grep -qE '^# measured in these frames: 0 ppm wrong, depth off by [0-9.e-]+, colour by [01] steps?; allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
+grep -qE '^# measured in these frames: 0 ppm wrong, depth off by [0-9.e-]+, colour by [01] steps?, light by 0\.[0-9]+; allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
 grep -qE '^# measured before the next steps were taken, with Z_BITS [0-9]+, Z_FRAC [0-9]+, SHADE_FRAC [0-9]+, CLASS_BITS [0-9]+: ' stdout || fail "$(cat stdout)"
 json measured.json 'j["measured"]["z_error"] <= j["limits"]["max_z"] and j["measured"]["color_steps"] <= 1 and 0 < j["measured"]["light_rms"] <= 1 and j["measured"]["before_steps"]["config"]["Z_FRAC"] < j["config"]["Z_FRAC"]'
 z=$(sed -n 's/^# measured in these frames: .*depth off by \([0-9.e-]*\),.*/\1/p' stdout)
@@ -136,7 +136,7 @@ json measured.json "abs(j['measured']['z_error'] / $z - 1) < 0.01"
 
 # Where the bound ends, pictures go on: finer widths are tried, and what fails is named with what was measured.
 expect 0 "$kage" plan three-lights --size 48x36 --frames 2 --samples 31 --guarantee measured --json wider.json
-grep -qE '^# measured in these frames: .*, colour by [01] steps?; allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
+grep -qE '^# measured in these frames: .*, colour by [01] steps?, light by 0\.[0-9]+; allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
 grep -qE '^SHADE_FRAC: .*; [0-9]+ give .* \(over --max-color 1\)' stdout || fail "$(grep SHADE_FRAC stdout)"
 json wider.json 'j["limits"]["max_color"] == 1 and j["measured"]["color_steps"] <= 1'
 expect 0 "$kage" plan three-lights --size 64x48 --frames 1 --guarantee measured
@@ -145,7 +145,7 @@ expect 0 "$kage" plan three-lights --size 64x48 --frames 1 --guarantee measured 
 grep -v '^# kage' stdout | cmp - default_color || fail "--max-color 1 is not the default"
 trouble "the finest widths (Z_BITS 28, Z_FRAC 16, SHADE_FRAC 16, CLASS_BITS 11) give 0 ppm wrong, depth off by " \
   "$kage" plan courtyard --size 64x48 --frames 1 --guarantee measured --max-z 1e-9
-grep -q ' (over --max-z 1e-09), colour by [01] steps*$' stderr || fail "$(cat stderr)"
+grep -qE ' \(over --max-z 1e-09\), colour by [01] steps?, light by 0\.[0-9]+$' stderr || fail "$(cat stderr)"
 
 trouble "--max-wrong: how many pixels a bit moves is a property of the scene: it needs --guarantee measured" \
   "$kage" plan courtyard --max-wrong 3

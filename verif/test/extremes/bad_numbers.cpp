@@ -111,6 +111,8 @@ TEST_CASE("family 10: a light, or a look, beyond what can be drawn is an error t
   CHECK_THROWS_AS(look([](Look& l) { l.samples = 256; }), Error);
   CHECK_THROWS_AS(look([](Look& l) { l.classes = 0; }), Error);
   CHECK_THROWS_AS(look([](Look& l) { l.classes = 2048; }), Error);
+  CHECK_THROWS_AS(look([](Look& l) { l.max_shading = -1; }), Error);
+  CHECK_THROWS_AS(look([](Look& l) { l.max_shading = 256; }), Error);
   CHECK_THROWS_AS(look([](Look& l) { l.darkening = NAN; }), Error);
   CHECK_THROWS_AS(look([](Look& l) { l.extrusion = 0.5; }), Error);
 }

@@ -63,14 +63,15 @@ TEST_CASE("a bound holds against the oracle, and one bit less breaks its inequal
       CHECK(accuracy->pictures.z_max <= plan.z_error);
       CHECK(accuracy->pictures.color_max <= plan.limits.color);
 
-      // One less breaks the inequality, with the longest span counted anew: fragments may have a longer parent.
+      // One less breaks the inequality, with the longest span counted anew: fragments, and parts of what is diced,
+      // may have a longer parent.
       const double pixels = std::max(longest(scenes[0], plan.config), 1.0);
       const double room = std::ldexp(1.0, plan.config.z_bits) - 3;
       const int frac = before(reason(plan, "Z_FRAC").text, " keep ");
       const auto error = [&](int f, double p) { return p * std::ldexp(0.5, -f) + (f > 0 ? 0.5 : 0.0); };
       CHECK(error(frac, pixels) / room <= limit);
       if (frac > 0) {
-        const bool parents = plan.config.translucency > 0;
+        const bool parents = plan.config.translucency > 0 || plan.config.smooth > 0;
         CHECK((error(frac - 1, parents ? 96 : pixels) + 2 * 0x1p-12) / room > limit);
       }
       const int bits = before(reason(plan, "Z_BITS").text, " keep ");

@@ -73,6 +73,7 @@ report::SceneRecord some_scene(const std::string& name) {
                .alpha = 1.0 / 3,
                .samples = 4,
                .classes = 16,
+               .max_shading = 5,
                .sub_bits = 6};
   s.config_name = "default";
   s.config.lanes = 4;
