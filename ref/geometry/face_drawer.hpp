@@ -33,7 +33,7 @@ class FaceDrawer {
   /// Likewise a face that is a cap alone, whose colours nobody sees.
   void draw_unseen(std::uint32_t index);
 
-  /// What has been drawn until now, and back to that: faces after it are not to be drawn.
+  /// The state of all that has been drawn, and the way back to it: faces after it are not to be drawn.
   struct Mark {
     std::size_t polygons;
     std::size_t vertices;

@@ -136,7 +136,7 @@ json measured.json "abs(j['measured']['z_error'] / $z - 1) < 0.01"
 
 # Where the bound ends, pictures go on: finer widths are tried, and what fails is named with what was measured.
 expect 0 "$kage" plan three-lights --size 48x36 --frames 2 --samples 31 --guarantee measured --json wider.json
-grep -qE '^# measured in these frames: .*, colour by [01] steps?, light by 0\.[0-9]+; allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
+grep -qE '^# measured in these frames: .*, colour by [01] steps?, light by [0-9.]+ \(no widths keep --max-color 1\); allowed: --max-z 5.96e-08, --max-color 1$' stdout || fail "$(cat stdout)"
 grep -qE '^SHADE_FRAC: .*; [0-9]+ give .* \(over --max-color 1\)' stdout || fail "$(grep SHADE_FRAC stdout)"
 json wider.json 'j["limits"]["max_color"] == 1 and j["measured"]["color_steps"] <= 1'
 expect 0 "$kage" plan three-lights --size 64x48 --frames 1 --guarantee measured

@@ -219,6 +219,16 @@ TEST_CASE("a frame's light asks for a table where shares differ, and for smooth 
   const LightDemand even = light_demand(f, {}, {});
   CHECK(even.share_error < 0.6);  // SHADE has 8 bits
   CHECK(even.color_spread == 0);
+  // A lamp over the floor's middle, and a cone within it: its corners are alike, and light between them is not.
+  look_at(f.camera, {3, 4, 5}, {0, 0, 0});
+  Light& lamp = f.lights[0];
+  lamp.directional = false;
+  lamp.position = {0, 0, 1};
+  CHECK(light_demand(f, {}, {}).color_spread > 30);
+  lamp.spot = true;
+  lamp.outer_cosine = 0.9;
+  lamp.inner_cosine = 0.95;
+  CHECK(light_demand(f, {}, {}).color_spread > 30);
 
   Needs needs;
   needs.shadows = true;
