@@ -58,13 +58,16 @@ struct Width {
 int fraction_step(int v) { return plan::position_step(std::max(v, 1)); }
 int shade_step(int v) { return std::min(plan::four_step(v), kGreatest.shade_frac); }
 
+/// One bit is no table.
+int class_bits_step(int v) { return v > 1 ? plan::class_step(v) : v; }
+
 /// The widths that may be lowered of a configuration, each with its least value; classes, if light can be kept.
 std::vector<Width> widths_of(const Config& c, bool classes = true) {
   std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
   if (c.smooth > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
   if (c.dsf_bits > 0) list.push_back({&Config::shade_frac, 1, shade_step});
   // With one bit there is no table, which several lights need.
-  if (c.class_bits > 1 && classes) list.push_back({&Config::class_bits, 2, plan::class_step});
+  if (c.class_bits > 1 && classes) list.push_back({&Config::class_bits, 2, class_bits_step});
   return list;
 }
 
@@ -248,11 +251,21 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
         at = less;
         lowered = true;
       }
-      if (at.*w.member == w.least)
-        one_less[k] = w.least == info_of(w.member).min ? "; no core has fewer"
-                      : w.member == &Config::class_bits && at.lights == 1
-                          ? std::string("; 1 is no table, and costed where light needs none")
-                          : fmt::format("; {} {}", w.least - 1, kCannot);
+      if (w.member == &Config::class_bits && at.class_bits == w.least && at.lights == 1) {
+        Config none = at;
+        none.class_bits = 1;
+        if (data_->features.needs.samples == 1) none.count_bits = 0;
+        const std::optional<MeasuredErrors> a = measure(none);
+        const std::optional<MeasuredErrors> all = serves(a) || !a ? a : measure(none, true);
+        one_less[k] = serves(a) ? std::string("; no core has fewer")
+                                : fmt::format("; without a table {}", all ? "pictures give " + text(*all) : kCannot);
+        if (serves(a)) {
+          at = none;
+          lowered = true;
+        }
+      } else if (at.*w.member == w.least)
+        one_less[k] =
+            w.least == info_of(w.member).min ? "; no core has fewer" : fmt::format("; {} {}", w.least - 1, kCannot);
     }
   }
   Lowered found{at, measure(at, true).value(), at, {}};
@@ -276,6 +289,11 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
                                : reason->value == raw      ? std::string()
                                                            : fmt::format(" (the next step is {})", reason->value));
   }
+  for (PlanReason& r : reasons)
+    if (r.parameter == info_of(&Config::count_bits).name && r.value != found.taken.count_bits) {
+      r.value = found.taken.count_bits;
+      r.text = "one light, a point or at infinity, and no table";
+    }
   widths = found.taken;
   data_->lowered.push_back(found);
 }

@@ -109,6 +109,7 @@ inline void check_one_less(const Plan& plan, const PlanReason& r, const PlannedS
     return;
   }
   bool said = r.value == p.min;
+  if (p.member == &Config::class_bits && says("; without a table pictures give ")) said = says(" (over --max-");
   for (const char* phrase :
        {" (over --max-", ", more than --max-", "no SHADE_FRAC keeps --max-color", "would put classes together",
         "have no room for that", "is another way, and costed too", " would take ", "both arrangements show the same",
