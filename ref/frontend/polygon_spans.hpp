@@ -83,7 +83,8 @@ class PolygonSpans {
   template <class Emit>
   void diced(const ScreenPolygon& p, int y, std::int32_t at, const SpanToken& s, Emit emit) const {
     if (at < 0) {
-      const Shade& shade = g_->shades[static_cast<std::size_t>(~at)];
+      const std::int32_t number = ~at;
+      const Shade& shade = g_->shades[static_cast<std::size_t>(number)];
       SpanToken part = s;
       part.normal_class = derived::has_table(*config_) ? static_cast<int>(shade.normal_class) : span_class(p, *config_);
       for (std::size_t c = 0; c < channels(); ++c) ramp(g_->color_planes[shade.color_planes + c], c, y, part);

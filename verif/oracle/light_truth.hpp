@@ -105,7 +105,8 @@ inline std::uint32_t class_at(const FrameGeometry& g, const Config& config, cons
     const ShadeCut& cut = g.shade_cuts[static_cast<std::size_t>(at)];
     at = cut.line.a * x + cut.line.b * y + cut.line.c >= 0 ? cut.front : cut.behind;
   }
-  return g.shades[static_cast<std::size_t>(~at)].normal_class;
+  const std::int32_t number = ~at;
+  return g.shades[static_cast<std::size_t>(number)].normal_class;
 }
 
 /// The picture as docs/stream.md has it, from pictures without any counter or table: colours without shadow, the

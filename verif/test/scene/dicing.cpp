@@ -201,7 +201,7 @@ TEST_CASE("lamps on, near and far from a face are diced within the picture's pix
     const SceneFrame f = Scene::from(lit.parts).frame(0, 1);
     const Config c = smooth(f, 4);
     const FrameGeometry g = geometry(f, c, 1);
-    CHECK(g.shades.size() <= 2 * kWidth * kHeight);
+    CHECK(g.shades.size() <= std::size_t{2} * kWidth * kHeight);
     const FrameGeometry again = geometry(f, c, 1);
     std::vector<std::uint32_t> words;
     std::vector<std::uint32_t> words_again;
