@@ -137,8 +137,7 @@ void LightTable::add_sides(bool inner, WeightedVectors& all, std::vector<Member>
 // The part that is furthest off its mean goes first, so that few parts leave little error.
 std::vector<LightTable::Part> LightTable::parts_of(const FaceSide& side) const {
   const FaceSurface surface(*frame_, side.polygon);
-  std::vector<SurfacePoint> outline;
-  for (std::size_t i = 0; i < surface.corners(); ++i) outline.push_back(surface.corner(i));
+  const std::vector<SurfacePoint> outline = surface.outline();
   std::vector<Part> parts{{{}, loss(side, outline), 0}};
   std::size_t count = 0;
   const auto wide = [this](const Part& p) {
@@ -355,10 +354,7 @@ std::uint32_t LightTable::number(const FaceSide& side) const {
   const std::uint32_t number_known = known(side).number;
   if (middles_.empty()) return 0;
   if (number_known > 0 || !derived::has_table(*config_)) return std::max(number_known, 1U);
-  const FaceSurface surface(*frame_, side.polygon);
-  std::vector<SurfacePoint> outline;
-  for (std::size_t i = 0; i < surface.corners(); ++i) outline.push_back(surface.corner(i));
-  return nearest(loss(side, outline));
+  return nearest(loss(side, FaceSurface(*frame_, side.polygon).outline()));
 }
 
 LightTable::Loss LightTable::loss_at(const FaceSide& side, const SurfacePoint& place) const {

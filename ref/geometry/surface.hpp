@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <span>
+#include <vector>
 
 #include "kage/scene.hpp"
 
@@ -49,6 +50,12 @@ class FaceSurface {
   [[nodiscard]] SurfacePoint corner(std::size_t i) const {
     const ShadingVertex& v = frame_->shading[triangle_->shading[outline_.size() == 3 ? i : 0]];
     return {frame_->vertices[outline_[i]], v.normal, v.color};
+  }
+
+  [[nodiscard]] std::vector<SurfacePoint> outline() const {
+    std::vector<SurfacePoint> all;
+    for (std::size_t i = 0; i < corners(); ++i) all.push_back(corner(i));
+    return all;
   }
 
   /// Any place of the face, which is a triangle or alike all over. A triangle without area looks as at its first

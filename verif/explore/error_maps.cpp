@@ -20,8 +20,6 @@ std::filesystem::path beside(const std::filesystem::path& picture, std::string_v
   return picture.parent_path() / fmt::format("{}_error{}.png", picture.stem().string(), what);
 }
 
-double mean(double sum, std::uint64_t of) { return of > 0 ? sum / static_cast<double>(of) : 0; }
-
 /// The total that a number of shadowed samples is part of, if a light is soft.
 std::string samples_text(const std::vector<int>& samples) {
   const int most = samples.empty() ? 1 : *std::max_element(samples.begin(), samples.end());
@@ -99,15 +97,15 @@ void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles
   text_ += told.empty() ? "  no source has an error of its own\n"
                         : fmt::format("  each source alone against the finest picture{}, face/shadow/colour: {}: {}\n",
                                       finest, fmt::join(told, ", "), beside(picture, "_SOURCE").string());
-  if (light.pixels > 0)
+  if (light.pixels > 0) {
+    const auto figure = [&](const char* name) { return j["light"][name].get<double>(); };
     text_ += fmt::format(
         "  light at the pixel, of {} pixels {} in some shadow, is off by {:.2f} steps of 255 there and {:.2f} "
         "elsewhere, "
         "{} dB: {}\n",
-        light.pixels, light.shadowed, mean(light.shadow_sum, 3 * light.shadowed),
-        mean(light.lit_sum, 3 * (light.pixels - light.shadowed)),
-        psnr(light.squares, light.pixels) ? fmt::format("{:.1f}", *psnr(light.squares, light.pixels)) : "no error in",
-        lit.string());
+        light.pixels, light.shadowed, figure("shadow_mean"), figure("lit_mean"),
+        j["light"]["psnr"].is_null() ? "no error in" : fmt::format("{:.1f}", figure("psnr")), lit.string());
+  }
   scene_->forget(index);
 }
 
