@@ -76,6 +76,7 @@ int run(const AreaCommand& o) {
                  {"bits_per_pixel", cells.bits_per_pixel},
                  {"terms", terms_json(named.config, kCellTermInfo)},
                  {"front_end_terms", named.config.active > 0 ? terms_json(named.config, kFrontEndTermInfo) : nullptr},
+                 {"linear_terms", named.config.linear_bits > 0 ? terms_json(named.config, kLinearTermInfo) : nullptr},
                  {"config", cli::to_json(named.config)}});
   }
   write_json(o.json, {"kage.area/1", j});

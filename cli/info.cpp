@@ -55,7 +55,7 @@ std::string header_text(const Config& config, std::span<const std::uint32_t> wor
     return fmt::format("header of {} words, cut after {}: {}", kHeaderWords, words.size(), words_text(words));
   const FrameHeader h = FrameHeader::read(words);
   std::string text = fmt::format("header: {}x{}, background {}, frame number {}", h.width, h.height,
-                                 color_text(config, unpacked_color(h.background)), h.frame);
+                                 color_text(config, unpacked_levels(h.background, 8)), h.frame);
   std::array<std::uint32_t, 1> ours{};
   FrameHeader{}.write(ours);
   if (h.level() == Level::polygons) text += ", at the polygon level";

@@ -187,8 +187,8 @@ module expansion_unit #(
   always_comb begin
     face = '0;
     face[PointIndexAt+:ORDER_BITS] = entry[EntryIndexAt+:ORDER_BITS];
-    face[PointColorAt+:RgbBits] = entry[EntryColorAt+:RgbBits];
-    if (DSF_BITS > 0) face[PointClassAt+:CLASS_BITS] = entry[EntryClassAt+:CLASS_BITS];
+    face[PointColorAt+:PixelRgbBits] = entry[EntryColorAt+:PixelRgbBits];
+    if (ClassBits > 0) face[PointClassAt+:CLASS_BITS] = entry[EntryClassAt+:CLASS_BITS];
   end
 
   assign step = busy_q && px_free;

@@ -8,9 +8,9 @@
 // Commands: OP, SP, NC, EV, ES, TP with 0 <= xl < xr <= width, and TREE and EOL with xl = 0, xr = width. Empty spans,
 //   SHADE, IF and RESOLVE take their clock here and go no further: the command's count brings the line's bias with EV,
 //   ES and EOL. A line's first TP is preceded by the command RESOLVE, which has no token: over the whole line, with the
-//   background as its colour. It costs a clock. With counters, if there was a RESOLVE to do, it is preceded by the
-//   command CmdOut instead: the line's pixels leave, by a line that says `load`, and come back as loads. The TP waits
-//   in token_stage and nothing is given until loads_done_i, one clock, says that they have.
+//   background as its colour. It costs a clock. With linear light, and with counters if there was a RESOLVE to do, it
+//   is preceded by the command CmdOut instead. The line's pixels leave, by a line that says `load`, and come back as
+//   loads. The TP waits in token_stage and nothing is given until loads_done_i, one clock, says that they have.
 // Light table (CLASS_BITS > 1): TABLEs go to the way out by table_*, in the clock they leave token_stage, and wait for
 //   table_free_i: that nothing of the frame before is left there.
 // Errors: the first one of a frame is reported by error_* for one clock. From then on the frame's lines are blank: EOL
@@ -153,8 +153,9 @@ module frame_control #(
   // A RESOLVE goes over the line before its first TP. An empty TP changes nothing, so it may have it.
   assign must_paint = verdict.tp && !painted_q;
   assign emit_paint = must_paint && sound && cmd_free && !loading_q && (line_ready_i || !by_loads);
-  // With counters only the way out can darken; a line without RESOLVE has nothing to darken.
-  assign by_loads = HasLoads && resolved;
+  // With counters only the way out can darken; a line without RESOLVE has nothing to darken. Linear light is displayed
+  // there, whatever has come to it.
+  assign by_loads = HasLoads && (LINEAR_BITS > 0 || resolved);
   assign dropping = dropping_i || rest_comes;
 
   assign line_valid_o = emit_eol || (emit_paint && by_loads);
@@ -166,7 +167,7 @@ module frame_control #(
   assign line.painted = painted_q;
   assign line.width = width_q;
   assign line.background = background_q;
-  assign line.shade = shade_q;
+  assign line.shade = LINEAR_BITS > 0 ? '0 : shade_q;
 
   assign open_o = state_q != StHeader || held_valid;
   assign hungry_o = !held_valid &&
@@ -238,7 +239,8 @@ module frame_control #(
         painted_q <= 1'b1;
       end
       // No line of the frame has been given, and none of the one before is due: so it may be early.
-      if (DSF_BITS > 0 && sound && !verdict.header && kind == KindShade) shade_q <= token[ShadeShadeLsb+:FactorBits];
+      if (DSF_BITS > 0 && LINEAR_BITS == 0 && sound && !verdict.header && kind == KindShade)
+        shade_q <= token[ShadeShadeLsb+:FactorBits];
     end
   end
 
@@ -253,8 +255,10 @@ module frame_control #(
       .rst_ni,
       .token_i     (token),
       .width_i     (width_q),
-      .share_i     (TRANSLUCENCY > 0 && COUNT_BITS == 0 ? ShareBits'(shade_q) : '0),
+      .share_i     (TRANSLUCENCY > 0 && COUNT_BITS == 0 && LINEAR_BITS == 0 ? ShareBits'(shade_q) : '0),
       .bias_i      (verdict.bias),
+      .lit_i       (LINEAR_BITS > 0 && kind == KindOp && resolved),
+      .pass_i      (verdict.pass),
       .background_i(background_q),
       .free_o      (cmd_free),
       .make_i      (emit_eol || emit_paint || emit_tree || emit_span),

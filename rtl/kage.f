@@ -4,6 +4,7 @@
 rtl/active_list.sv
 rtl/compare_cell.sv
 rtl/compare_tree.sv
+rtl/display_curve.sv
 rtl/expansion_unit.sv
 rtl/frame_control.sv
 rtl/front_end.sv

@@ -7,7 +7,7 @@
 //    frame_control -> tree_core -> pixel_core       faces and segments, and lines of the tree        (UNITS > 0)
 //    frame_control -> line_queue -> line_out        what a line is, in order
 //    frame_control -> line_out                      the light table                                  (CLASS_BITS > 1)
-//    line_out -> pixel_loads                        colours that come back, darkened       (counters and TRANSLUCENCY)
+//    line_out -> pixel_loads                        colours that come back     (counters or linear light, TRANSLUCENCY)
 //    all of these -> registers on s_axil            status, errors, end of frame, what moves
 //
 // Clocking: one clock, synchronous reset, active low. All outputs depend on registers only, but for the readies of
@@ -137,7 +137,7 @@ module kage_top #(
   // A line is under way from its EOL until its last pixel has left, and one that comes back as loads until its last has
   // been taken. At most 4 are in the queue and 1 is being sent. If each has one pixel, 5 + LightStages are in
   // line_out's pipeline and 2 behind it.
-  localparam int LinesBits = COUNT_BITS > 0 ? 5 : 4;
+  localparam int LinesBits = LightStages > 0 ? 5 : 4;
   logic [LinesBits-1:0] lines_q;
 
   logic tree_frame_ready, tree_seg_valid, tree_seg_ready;

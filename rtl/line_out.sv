@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The way out: two line buffers, so that the next line is worked on while this one leaves at a pixel a clock; the
-// multiplier of RESOLVE; background where nothing was drawn; AXI4-Stream video.
+// The way out: two line buffers, so that the next line is worked on while this one leaves at a pixel a clock. In it are
+// the multiplier of RESOLVE, or the display's curve, background where nothing was drawn, and AXI4-Stream video.
 //
 // Handshake: exit_free_o says that a buffer is free, exit_take_i takes it, then the line's groups come in order by
 //   exit_valid_i (they cannot be stopped), the last with exit_last_i. Port line_* is valid/ready and brings each line's
@@ -9,13 +9,14 @@
 // Pixel: background if the line is blank, or the pixel not covered in a line that is not painted; else its colour. A
 //   dark pixel's colour is times 1 - shade, rounded once: (c x (2^SHADE_FRAC - shade) + 2^(SHADE_FRAC-1)) >>
 //   SHADE_FRAC. With counters every pixel has a factor of its own: light_resolve, which table_* loads.
-// Loads (counters and translucency): a line with `load` leaves by load_*, valid/ready, not by m_axis_*: each pixel's
-//   place and colour.
+//   Linear light is darkened already, and goes through display_curve unless the line is painted.
+// Loads (counters or linear light, and translucency): a line with `load` leaves by load_*, valid/ready, not by
+//   m_axis_*. They bring each pixel's place and colour.
 // Throughput: a pixel a clock; lines of one frame follow each other without a gap. Video is a pixel a clock anyway, so
 //   the one multiplier per channel here does the work of LANES of them in the pass that empties the line.
-// Latency: 8 clocks from a line's first group to its first pixel, and with counters LightStages more.
+// Latency: 8 clocks from a line's first group to its first pixel, and with counters or linear light LightStages more.
 // Cost: a RAM of 2 x ceil(MAX_WIDTH / LANES) groups, CHANNELS products of 8 x (SHADE_FRAC + 1) bits (none without
-//   shadows), light_resolve.
+//   shadows or with linear light), light_resolve or display_curve.
 `default_nettype none
 
 module line_out #(
@@ -216,7 +217,21 @@ module line_out #(
   logic [RgbBits:0] colored;  // {covered, colour}
   logic is_dark;
   logic [CHANNELS*FactorBits-1:0] factor;
-  if (COUNT_BITS > 0) begin : gen_light
+  if (LINEAR_BITS > 0) begin : gen_curve
+    logic unused_light;
+    assign unused_light = ^{table_valid_i, table_i, keep_q};
+    display_curve #(
+        `include "generated/kage_pixel_param_map.svh"
+    ) u_curve (
+        .clk_i,
+        .go_i   (go),
+        .pixel_i(pixel_q[ExitCoveredAt:ExitColorAt]),
+        .shown_i(painted_at_q[2]),
+        .pixel_o(colored)
+    );
+    assign is_dark = 1'b0;
+    assign factor  = '0;
+  end else if (COUNT_BITS > 0) begin : gen_light
     light_resolve #(
         `include "generated/kage_pixel_param_map.svh"
     ) u_light (
@@ -234,14 +249,14 @@ module line_out #(
     logic unused_table;
     assign unused_table = ^{table_valid_i, table_i};
     assign colored = pixel_q[ExitCoveredAt:ExitColorAt];
-    assign is_dark = DSF_BITS > 0 && pixel_q[ExitDarkAt];
+    assign is_dark = DarkBits > 0 && pixel_q[ExitDarkAt];
     assign factor = {CHANNELS{keep_q}};
   end
 
   // ---- the last two stages: resolve, background --------------------------------------------------------------------
   logic [RgbBits-1:0] plain_q, dimmed, color_q;
   logic show_q, dark_q;  // the pixel has a colour, in a line that is not blank; and is in shadow
-  if (DSF_BITS > 0) begin : gen_resolve
+  if (DSF_BITS > 0 && LINEAR_BITS == 0) begin : gen_resolve
     logic [CHANNELS*(SHADE_FRAC+9)-1:0] product_q;
     always_ff @(posedge clk_i) begin
       if (go) begin

@@ -214,19 +214,19 @@ module pixel_banked #(
       .value_o (lane_z)
   );
 
-  logic [LANES*RgbBits-1:0] lane_color;
+  logic [LANES*LaneRgbBits-1:0] lane_color;
   if (SMOOTH > 0) begin : gen_smooth
     logic unused_flat;
     assign unused_flat = ^walk_flat_q;
     for (genvar c = 0; c < CHANNELS; c++) begin : gen_channel
-      logic [LANES*8-1:0] value;
+      logic [LANES*LaneLevelBits-1:0] value;
       lane_ramp #(
           .LANES(LANES),
           .BITS(RampBits),
-          .FRAC(COLOR_FRAC),
+          .FRAC(COLOR_FRAC + 8 - LaneLevelBits),
           .LO(0),
-          .HI(255),
-          .OUT_BITS(8)
+          .HI((1 << LaneLevelBits) - 1),
+          .OUT_BITS(LaneLevelBits)
       ) u_color (
           .clk_i,
           .rst_ni,
@@ -240,7 +240,7 @@ module pixel_banked #(
           .value_o (value)
       );
       for (genvar l = 0; l < LANES; l++) begin : gen_lane
-        assign lane_color[l*RgbBits+c*8+:8] = value[l*8+:8];
+        assign lane_color[l*LaneRgbBits+c*LaneLevelBits+:LaneLevelBits] = value[l*LaneLevelBits+:LaneLevelBits];
       end
     end
   end
@@ -295,12 +295,12 @@ module pixel_banked #(
   // ---- the tree's line ---------------------------------------------------------------------------------------------
   // Depth, colour and count of each lane, a clock ahead: the span's, or what the tree has there.
   logic [LANES*Z_BITS-1:0] ahead_z;
-  logic [LANES*RgbBits-1:0] ahead_color;
+  logic [LANES*LaneRgbBits-1:0] ahead_color;
   logic [LANES*CountBits-1:0] ahead_counts;
 
   if (UNITS > 0) begin : gen_tree
     logic [LANES*Z_BITS-1:0] tree_z;
-    logic [LANES*RgbBits-1:0] tree_color;
+    logic [LANES*PixelRgbBits-1:0] tree_color;
     logic [LANES*CLASS_BITS-1:0] tree_class;
     tree_line #(
         .LANES(LANES),
@@ -329,9 +329,9 @@ module pixel_banked #(
       ahead_counts = {LANES{ahead_count}};
       if (ahead_kind == KindTree) begin
         ahead_z = tree_z;
-        ahead_color = tree_color;
         for (int l = 0; l < LANES; l++) begin
-          if (DSF_BITS > 0) ahead_counts[l*CountBits+:CountBits] = CountBits'(tree_class[l*CLASS_BITS+:CLASS_BITS]);
+          ahead_color[l*LaneRgbBits+:LaneRgbBits] = lane_color_of(tree_color[l*PixelRgbBits+:PixelRgbBits]);
+          if (ClassBits > 0) ahead_counts[l*CountBits+:CountBits] = CountBits'(tree_class[l*CLASS_BITS+:CLASS_BITS]);
         end
       end
     end
@@ -347,8 +347,8 @@ module pixel_banked #(
 
   // ---- read, next state, write -------------------------------------------------------------------------------------
   logic [WordBits-1:0] ram_data, stored_q, recent_q, settled, word_q, word, next, done_q, done, done2_q;
-  logic [LANES-1:0] blends, word_blends_q, done_blends_q;
-  logic [LANES*RgbBits-1:0] blended, blended_q;
+  logic [LANES-1:0] mixes, word_mixes_q, done_mixes_q;
+  logic [LANES*PixelRgbBits-1:0] mixed, mixed_q;
   logic [AddrBits-1:0] done_addr_q;
   logic done_valid_q;
   // The group computed 1 .. 4 clocks before is the same: for 1, 2 and 3 a bit for each lane that it changed, so that a
@@ -395,18 +395,22 @@ module pixel_banked #(
       if (same3_q[l]) recent_q[l*PixelBits+:PixelBits] <= done[l*PixelBits+:PixelBits];
       if (same1_q[l]) word_q[l*PixelBits+:PixelBits] <= next[l*PixelBits+:PixelBits];
     end
-    word_blends_q <= same1_q & blends;
-    done_blends_q <= blends;
-    blended_q <= blended;
+    word_mixes_q <= same1_q & mixes;
+    done_mixes_q <= mixes;
+    mixed_q <= mixed;
   end
 
-  // A blended colour is chosen a clock later: nothing stands between the blender and its register.
+  // A mixed colour is chosen a clock later: nothing stands between the products and their register.
   always_comb begin
     word = word_q;
     done = done_q;
     for (int l = 0; l < LANES; l++) begin
-      if (TRANSLUCENCY > 0 && word_blends_q[l]) word[l*PixelBits+PixelColorAt+:RgbBits] = blended_q[l*RgbBits+:RgbBits];
-      if (TRANSLUCENCY > 0 && done_blends_q[l]) done[l*PixelBits+PixelColorAt+:RgbBits] = blended_q[l*RgbBits+:RgbBits];
+      if (Mixes && word_mixes_q[l]) begin
+        word[l*PixelBits+PixelColorAt+:PixelRgbBits] = mixed_q[l*PixelRgbBits+:PixelRgbBits];
+      end
+      if (Mixes && done_mixes_q[l]) begin
+        done[l*PixelBits+PixelColorAt+:PixelRgbBits] = mixed_q[l*PixelRgbBits+:PixelRgbBits];
+      end
     end
   end
 
@@ -415,7 +419,7 @@ module pixel_banked #(
   logic [LANES-1:0] moved_q, before_new_q, before_old_q, in_front;
   logic now_opaque_q;  // of now_kind
   logic [LANES*Z_BITS-1:0] now_z;
-  logic [LANES*RgbBits-1:0] now_color;
+  logic [LANES*LaneRgbBits-1:0] now_color;
   logic [LANES*CountBits-1:0] now_counts;
   logic [KeepBits-1:0] now_keep;
   logic [LANES*AddedBits-1:0] now_added;
@@ -427,16 +431,22 @@ module pixel_banked #(
     now_counts <= ahead_counts;
     now_keep <= pixel_keep(ahead_kind, ahead_weight);
     for (int l = 0; l < LANES; l++) begin
-      now_added[l*AddedBits+:AddedBits] <= pixel_added(ahead_kind, 8'(ahead_weight), ahead_color[l*RgbBits+:RgbBits]);
+      now_added[l*AddedBits+:AddedBits] <= pixel_added(
+          ahead_kind, 8'(ahead_weight), ahead_color[l*LaneRgbBits+:LaneRgbBits]
+      );
       moved_q[l] <= same1_q[l] && ((now_opaque_q && in_front[l]) || now_kind == KindEol);
-      before_new_q[l] <= now_kind == KindEol || pixel_in_front(ahead_z[l*Z_BITS+:Z_BITS], now_z[l*Z_BITS+:Z_BITS]);
-      before_old_q[l] <= pixel_in_front(ahead_z[l*Z_BITS+:Z_BITS], settled[l*PixelBits+PixelZAt+:Z_BITS]);
+      before_new_q[l] <= now_kind == KindEol || pixel_in_front(
+          ahead_z[l*Z_BITS+:Z_BITS], now_z[l*Z_BITS+:Z_BITS], pixel_lights(ahead_kind)
+      );
+      before_old_q[l] <= pixel_in_front(
+          ahead_z[l*Z_BITS+:Z_BITS], settled[l*PixelBits+PixelZAt+:Z_BITS], pixel_lights(ahead_kind)
+      );
     end
   end
 
   always_comb begin
     next = word;
-    {blends, blended} = '0;
+    {mixes, mixed} = '0;
     for (int l = 0; l < LANES; l++) begin
       in_front[l] = moved_q[l] ? before_new_q[l] : before_old_q[l];
       if (now_lanes[l]) begin
@@ -446,14 +456,20 @@ module pixel_banked #(
           now_opaque_q,
           in_front[l],
           now_z[l*Z_BITS+:Z_BITS],
-          now_color[l*RgbBits+:RgbBits],
+          now_color[l*LaneRgbBits+:LaneRgbBits],
           now_counts[l*CountBits+:CountBits]
         );
-        blends[l] = pixel_blends(word[l*PixelBits+:PixelBits], now_kind, in_front[l], now_counts[l*CountBits+:DsfBits]);
+        mixes[l] = pixel_mixes(word[l*PixelBits+:PixelBits], now_kind, in_front[l], now_counts[l*CountBits+:CountBits]);
       end
-      if (TRANSLUCENCY > 0) begin
-        blended[l*RgbBits+:RgbBits] =
-            pixel_blend(word[l*PixelBits+PixelColorAt+:RgbBits], now_keep, now_added[l*AddedBits+:AddedBits]);
+      if (Mixes) begin
+        mixed[l*PixelRgbBits+:PixelRgbBits] = pixel_mixed(
+          word[l*PixelBits+:PixelBits],
+          now_kind,
+          now_color[l*LaneRgbBits+:LaneRgbBits],
+          now_counts[l*CountBits+:CountBits],
+          now_keep,
+          now_added[l*AddedBits+:AddedBits]
+        );
       end
     end
   end

@@ -75,7 +75,7 @@ module pixel_systolic #(
   logic [N*DepthBits-1:0] z_q, dz_q, z_d;
   logic [N*Z_BITS-1:0] depth_d, depth_q;
   logic [N*ColorBits-1:0] color_q, color_d;
-  logic [N*RgbBits-1:0] shown_d, shown_q;
+  logic [N*LaneRgbBits-1:0] shown_d, shown_q;
   logic [(N+1)*ShareBits-1:0] weight_q;
   logic [N*PixelBits-1:0] pixel_q, pixel_d;
   logic [Segments*ExitBits-1:0] joined_d, joined_q;
@@ -90,30 +90,30 @@ module pixel_systolic #(
   endfunction
 
   // Clamped colour, from the accumulators of all channels. Without SMOOTH they have 8 bits, and nothing is clamped.
-  function automatic logic [RgbBits-1:0] clamp_color(input logic [ColorBits-1:0] sums);
-    logic [9:0] whole;
+  function automatic logic [LaneRgbBits-1:0] clamp_color(input logic [ColorBits-1:0] sums);
+    logic [LaneLevelBits+1:0] whole;
     begin
       clamp_color = '0;
       whole = '0;
       for (int c = 0; c < CHANNELS; c++) begin
-        whole = 10'({2'b00, sums[c*RampBits+:RampBits]} >> COLOR_FRAC);
-        if (whole[9]) clamp_color[c*8+:8] = 8'd0;
-        else if (whole[8]) clamp_color[c*8+:8] = 8'd255;
-        else clamp_color[c*8+:8] = whole[7:0];
+        whole = (LaneLevelBits + 2)'({2'b00, sums[c*RampBits+:RampBits]} >> (COLOR_FRAC + 8 - LaneLevelBits));
+        if (whole[LaneLevelBits+1]) clamp_color[c*LaneLevelBits+:LaneLevelBits] = '0;
+        else if (whole[LaneLevelBits]) clamp_color[c*LaneLevelBits+:LaneLevelBits] = '1;
+        else clamp_color[c*LaneLevelBits+:LaneLevelBits] = whole[LaneLevelBits-1:0];
       end
     end
   endfunction
 
   // ---- the tree's line ---------------------------------------------------------------------------------------------
   logic [Z_BITS-1:0] tree_z;
-  logic [RgbBits-1:0] tree_color;
+  logic [LaneRgbBits-1:0] tree_color;
   logic [CountBits-1:0] tree_count;
   tree_pixel_t tree;
   assign tree = tree_i;
   if (UNITS > 0) begin : gen_tree
     logic flows_q, take;  // a line has begun to come and not ended
     logic [Z_BITS-1:0] z1_q, z2_q;
-    logic [RgbBits-1:0] color1_q, color2_q;
+    logic [PixelRgbBits-1:0] color1_q, color2_q;
     logic [CLASS_BITS-1:0] class1_q, class2_q;
     logic unused_drop;
     assign unused_drop = tree_drop_i;  // nothing is taken ahead of its TREE
@@ -129,7 +129,7 @@ module pixel_systolic #(
       {class2_q, class1_q} <= {class1_q, tree.normal_class};
     end
     assign tree_z = z2_q;
-    assign tree_color = color2_q;
+    assign tree_color = lane_color_of(color2_q);
     assign tree_count = CountBits'(class2_q);
 `ifndef SYNTHESIS
     // 1. A line that has begun to come has no bubble.
@@ -159,7 +159,7 @@ module pixel_systolic #(
         z = z_q[i*DepthBits+:DepthBits];
         z_d[i*DepthBits+:DepthBits] = z + dz_q[i*DepthBits+:DepthBits];
         depth_d[i*Z_BITS+:Z_BITS] = clamp_z(z[Z_FRAC+:Z_BITS+2]);
-        shown_d[i*RgbBits+:RgbBits] = clamp_color(color_q[i*ColorBits+:ColorBits]);
+        shown_d[i*LaneRgbBits+:LaneRgbBits] = clamp_color(color_q[i*ColorBits+:ColorBits]);
       end
     end
   end
@@ -168,7 +168,7 @@ module pixel_systolic #(
   logic [KindBits-1:0] kind;
   logic [CountBits-1:0] count;
   logic [Z_BITS-1:0] depth;
-  logic [RgbBits-1:0] color;
+  logic [LaneRgbBits-1:0] color;
   logic [PixelBits-1:0] pixel;
   logic in_front;
   logic [ShareBits-1:0] weight;
@@ -185,17 +185,17 @@ module pixel_systolic #(
         kind  = kind_q[(i+1)*KindBits+:KindBits];
         count = count_q[(i+1)*CountBits+:CountBits];
         depth = depth_q[i*Z_BITS+:Z_BITS];
-        color = shown_q[i*RgbBits+:RgbBits];
+        color = shown_q[i*LaneRgbBits+:LaneRgbBits];
         if (UNITS > 0 && kind == KindTree) {depth, color, count} = {tree_z, tree_color, tree_count};
         pixel = pixel_q[i*PixelBits+:PixelBits];
-        in_front = pixel_in_front(depth, pixel[PixelZAt+:Z_BITS]);
+        in_front = pixel_in_front(depth, pixel[PixelZAt+:Z_BITS], pixel_lights(kind));
         weight = weight_q[(i+1)*ShareBits+:ShareBits];
         alpha = 8'(weight);
         keep = pixel_keep(kind, weight);
         added = pixel_added(kind, alpha, color);
         pixel_d[i*PixelBits+:PixelBits] = pixel_next(pixel, kind, opaque_q[i], in_front, depth, color, count);
-        if (pixel_blends(pixel, kind, in_front, count[DsfBits-1:0])) begin
-          pixel_d[i*PixelBits+PixelColorAt+:RgbBits] = pixel_blend(pixel[PixelColorAt+:RgbBits], keep, added);
+        if (pixel_mixes(pixel, kind, in_front, count)) begin
+          pixel_d[i*PixelBits+PixelColorAt+:PixelRgbBits] = pixel_mixed(pixel, kind, color, count, keep, added);
         end
         // Only one EOL or CmdOut in the chain is among its line's pixels, so the OR of all exits is that one's exit.
         if (kind == KindEol || (HasLoads && kind == CmdOut)) begin

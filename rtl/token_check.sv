@@ -9,7 +9,7 @@
 //   fault of a unit, and fault_*_o are the unit and the token to blame. Output seg_goes_o: it is a good SEG that its
 //   unit takes; a good SEG without it is swallowed. Output completes_o: it ends its unit's line.
 // Acts: take_i, one clock, the token comes in. After one that is not good nothing but a header counts.
-// State: bias_o, as the token finds it; resolved_o: a RESOLVE was the line's last token. behind_*_o: as segment_check
+// State: bias_o, as the token finds it; resolved_o and pass_o as line_phase has them. behind_*_o: as segment_check
 //   has it, of units; without units 0.
 // Latency: answers 0, state 1 clock. Throughput: a token a clock.
 // Cost: line_phase, with CLASS_BITS > 1 table_check, with UNITS > 0 segment_check and a flip-flop; comparators of
@@ -50,6 +50,7 @@ module token_check #(
 
     output logic [       DsfBits-1:0] bias_o,
     output logic                      resolved_o,
+    output logic [      PassBits-1:0] pass_o,
     output logic                      behind_o,
     output logic [UnitNumberBits-1:0] behind_unit_o,
     output logic [               1:0] behind_ahead_o
@@ -111,8 +112,10 @@ module token_check #(
       .take_i    (take),
       .kind_i    (kind),
       .w_i       (token_i[IfWLsb+:DsfBits]),
+      .samples_i (token_i[ResolveSamplesLsb+:(COUNT_BITS>0?COUNT_BITS : 1)]),
       .in_order_o(in_phase),
       .resolved_o,
+      .pass_o,
       .bias_o
   );
 

@@ -5,9 +5,10 @@
 // Handshake: free_o says that a command may be made, and depends on registers only. In a clock in which it is high,
 //   make_i may be high: from the next clock on the command is in cmd_*, which is valid/ready. Token, width, share, bias
 //   and background are those of that clock.
-// Commands: of the token, which has a range; or, by the first of eol_i, paint_i, out_i, tree_i that is high, over the
-//   whole line: EOL, RESOLVE with the background as its colour, CmdOut, TREE. They say what it would be, whether or not
-//   it is made, so that the many bits of a command do not wait for make_i.
+// Commands: of the token, which has a range; CmdLight in place of an OP if lit_i is high. Or, by the first of eol_i,
+//   paint_i, out_i, tree_i that is high, over the whole line: EOL, RESOLVE with the background as its colour, CmdOut,
+//   TREE. They say what it would be, whether or not it is made, so that the many bits of a command do not wait for
+//   make_i.
 // Latency: 1 clock. Throughput: a command a clock.
 // Cost: a stream_fifo of two commands, the choice among the places of fields.
 `default_nettype none
@@ -24,6 +25,8 @@ module token_command #(
     input wire logic [        X_BITS-1:0] width_i,
     input wire logic [     ShareBits-1:0] share_i,      // what RESOLVE takes
     input wire logic [       DsfBits-1:0] bias_i,
+    input wire logic                      lit_i,        // the token is an OP behind a RESOLVE of linear light,
+    input wire logic [      PassBits-1:0] pass_i,       // which brings this
     input wire logic [       RgbBits-1:0] background_i,
 
     output logic      free_o,
@@ -73,7 +76,7 @@ module token_command #(
   logic [CountBits-1:0] count;
   always_comb begin
     unique case (kind)
-      KindOp:  count = CountBits'(token_i[OpClassLsb+:CLASS_BITS]);
+      KindOp:  count = LINEAR_BITS > 0 ? CountBits'(pass_i) : CountBits'(token_i[OpClassLsb+:CLASS_BITS]);
       KindEv:  count = CountBits'(bias_i);
       KindEs:  count = LIGHTS > 1 ? CountBits'(token_i[EsLightLsb+:LightBits]) << LightAt : '0;
       default: count = CountBits'(token_i[WeightLsb+:DsfBits]);
@@ -85,7 +88,7 @@ module token_command #(
 
   command_t cmd;
   always_comb begin
-    cmd.kind = eol_i ? KindEol : paint_i ? KindResolve : out_i ? CmdOut : kind;
+    cmd.kind = eol_i ? KindEol : paint_i ? KindResolve : out_i ? CmdOut : lit_i ? CmdLight : kind;
     cmd.xl = whole ? '0 : token_i[RangeXlLsb+:X_BITS];
     cmd.xr = whole ? width_i : token_i[RangeXrLsb+:X_BITS];
     cmd.z = token_i[OpZLsb+:DepthBits];

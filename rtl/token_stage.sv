@@ -153,6 +153,7 @@ flags_t flags;
   );
 
   logic body_good, seg_goes, completes, resolved, raised;
+  logic [PassBits-1:0] pass;
   logic [CodeBits-1:0] body_code, head_code;
   logic [DsfBits-1:0] bias;
   logic [UnitNumberBits-1:0] unit_to_blame, unit_of_behind;
@@ -188,6 +189,7 @@ flags_t flags;
       .completes_o    (completes),
       .bias_o         (bias),
       .resolved_o     (resolved),
+      .pass_o         (pass),
       .behind_o       (unit_behind_o),
       .behind_unit_o  (unit_of_behind),
       .behind_ahead_o (ahead_of_behind)
@@ -215,6 +217,7 @@ flags_t flags;
     verdict.seg_goes = !flags.header && seg_goes;
     verdict.completes = completes;
     verdict.resolved = resolved;
+    verdict.pass = pass;
     verdict.bias = bias;
   end
 

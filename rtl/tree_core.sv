@@ -176,8 +176,8 @@ module tree_core #(
   logic unused_index;
   assign unused_index = ^point[PointIndexAt+:ORDER_BITS];
   assign line.z = point[PointZAt+:Z_BITS];
-  assign line.color = point[PointColorAt+:RgbBits];
-  assign line.normal_class = DSF_BITS > 0 ? point[PointClassAt+:CLASS_BITS] : '0;
+  assign line.color = point[PointColorAt+:PixelRgbBits];
+  assign line.normal_class = ClassBits > 0 ? point[PointClassAt+:CLASS_BITS] : '0;
   assign line.last = last;
 
   // ---- assertions --------------------------------------------------------------------------------------------------

@@ -32,13 +32,13 @@ module tree_line #(
     input  wire logic [TreePixelBits-1:0] tree_i,
     input  wire logic                     drop_i,
 
-    output logic                             here_o,
-    input  wire logic                        pass_i,
-    input  wire logic                        rd_en_i,
-    input  wire logic [        AddrBits-1:0] rd_group_i,
-    output logic      [    LANES*Z_BITS-1:0] z_o,
-    output logic      [   LANES*RgbBits-1:0] color_o,
-    output logic      [LANES*CLASS_BITS-1:0] class_o,
+    output logic                               here_o,
+    input  wire logic                          pass_i,
+    input  wire logic                          rd_en_i,
+    input  wire logic [          AddrBits-1:0] rd_group_i,
+    output logic      [      LANES*Z_BITS-1:0] z_o,
+    output logic      [LANES*PixelRgbBits-1:0] color_o,
+    output logic      [  LANES*CLASS_BITS-1:0] class_o,
 
     output logic moving_o  // a pixel comes in
 );
@@ -46,7 +46,7 @@ module tree_line #(
 
   localparam int Levels = $clog2(LANES);
   localparam int OffBits = LANES > 1 ? Levels : 1;
-  localparam int PaintBits = Z_BITS + RgbBits + ClassBits;  // of PixelBits
+  localparam int PaintBits = Z_BITS + PixelRgbBits + ClassBits;  // of PixelBits
 
   tree_pixel_t tree;
   assign tree = tree_i;
@@ -63,8 +63,8 @@ module tree_line #(
   always_comb begin
     in_pixel = '0;
     in_pixel[PixelZAt+:Z_BITS] = tree.z;
-    in_pixel[PixelColorAt+:RgbBits] = tree.color;
-    if (DSF_BITS > 0) in_pixel[PixelClassAt+:CLASS_BITS] = tree.normal_class;
+    in_pixel[PixelColorAt+:PixelRgbBits] = tree.color;
+    if (ClassBits > 0) in_pixel[PixelClassAt+:CLASS_BITS] = tree.normal_class;
   end
   assign tree_ready_o = !full_q;
   assign in_take = tree_valid_i && tree_ready_o && !drop_i;
@@ -117,8 +117,8 @@ module tree_line #(
     class_o = '0;
     for (int l = 0; l < LANES; l++) begin
       z_o[l*Z_BITS+:Z_BITS] = tree_q[l*PaintBits+PixelZAt+:Z_BITS];
-      color_o[l*RgbBits+:RgbBits] = tree_q[l*PaintBits+PixelColorAt+:RgbBits];
-      if (DSF_BITS > 0) class_o[l*CLASS_BITS+:CLASS_BITS] = tree_q[l*PaintBits+PixelClassAt+:CLASS_BITS];
+      color_o[l*PixelRgbBits+:PixelRgbBits] = tree_q[l*PaintBits+PixelColorAt+:PixelRgbBits];
+      if (ClassBits > 0) class_o[l*CLASS_BITS+:CLASS_BITS] = tree_q[l*PaintBits+PixelClassAt+:CLASS_BITS];
     end
   end
 

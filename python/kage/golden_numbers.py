@@ -6,7 +6,7 @@
 # kinds of tokens, by number; empty: no kind
 KINDS = ("HEADER", "SHADE", "TABLE", "FACE", "SEG", "TREE", "OP", "SP", "NC", "IF", "EV", "ES", "RESOLVE", "TP", "EOL", "END", "", "", "", "", "", "", "", "", "", "GRADIENT", "POLYGON", "EDGE", "AT")
 # fields of a token; those of several channels begin at the number
-TOKEN = {"xl": 0, "xr": 1, "z": 2, "dz": 3, "w": 4, "class": 5, "color": 6, "dcolor": 9, "alpha": 12, "shade": 13, "light": 14, "share": 15, "y": 18, "unit": 19, "face": 20, "index": 21, "dx": 22, "sync": 23, "layer": 24, "sample": 25, "volume": 26, "rank": 27, "value": 28, "right": 29, "down": 30, "channel": 31, "side": 32, "last": 33, "top_x": 34, "top_y": 35, "bottom_x": 36, "bottom_y": 37}
+TOKEN = {"xl": 0, "xr": 1, "z": 2, "dz": 3, "w": 4, "class": 5, "color": 6, "dcolor": 9, "alpha": 12, "shade": 13, "light": 14, "share": 15, "y": 18, "unit": 19, "face": 20, "index": 21, "dx": 22, "sync": 23, "layer": 24, "sample": 25, "volume": 26, "rank": 27, "value": 28, "right": 29, "down": 30, "channel": 31, "side": 32, "last": 33, "top_x": 34, "top_y": 35, "bottom_x": 36, "bottom_y": 37, "samples": 38}
 # fields of a pixel's state; those of several channels or lights begin at the number
-PIXEL = {"z": 0, "color": 1, "class": 4, "dsf": 5, "fsf": 6, "count": 7}
+PIXEL = {"z": 0, "color": 1, "class": 4, "dsf": 5, "fsf": 6, "count": 7, "served": 15}
 # fmt: on

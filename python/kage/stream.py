@@ -44,6 +44,7 @@ PARAMETERS = {
     "SEG_BITS": (7, 2, 12, None, True, "a unit buffers 2^SEG_BITS segments of a line"),
     "ORDER_BITS": (8, 1, 16, None, True, "bits of a polyhedron's draw index, which decides between equal depths"),
     "CLASSIC": (0, 0, 1, None, True, "1: segments are the paper's two 16-bit words; needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9"),
+    "LINEAR_BITS": (0, 0, 14, [0, 10, 11, 12, 13, 14], True, "bits of a channel of linear light, to which a line's lights are added one after the other; 0: a pixel has one colour, which RESOLVE darkens"),
     "ARRANGEMENT": (1, 0, 1, None, False, "0 systolic (a processor per pixel), 1 banked (LANES over line buffers)"),
     "LANES": (4, 1, 32, [1, 2, 4, 8, 16, 32], False, "banked: pixels worked on per clock"),
     "MAX_WIDTH": (640, 1, 32767, None, False, "pixels of the longest line; systolic: the number of processors"),
@@ -57,15 +58,22 @@ RULES = [
     ("COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow", lambda c: c.COUNT_BITS == 0 or c.DSF_BITS > 0),
     ("CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample", lambda c: c.CLASS_BITS == 1 or c.COUNT_BITS > 0),
     ("LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table", lambda c: c.LIGHTS == 1 or (c.COUNT_BITS > 0 and c.CLASS_BITS > 1)),
+    ("LINEAR_BITS > 0 needs DSF_BITS > 0, SMOOTH, LIGHTS 1 and CLASS_BITS 1: light after light has one counter and no table", lambda c: c.LINEAR_BITS == 0 or (c.DSF_BITS > 0 and c.SMOOTH > 0 and c.LIGHTS == 1 and c.CLASS_BITS == 1)),
+    ("LINEAR_BITS > 0 needs ACTIVE 0: light after light comes by spans", lambda c: c.LINEAR_BITS == 0 or c.ACTIVE == 0),
+    ("LINEAR_BITS > 0 needs COLOR_FRAC of LINEAR_BITS + COUNT_BITS - 8 at least: a sample's part of linear light", lambda c: c.LINEAR_BITS + c.COUNT_BITS <= 8 + c.COLOR_FRAC or c.LINEAR_BITS == 0),
     ("COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction", lambda c: c.COLOR_FRAC == 0 or c.SMOOTH > 0),
     ("CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9: the paper's segment", lambda c: c.CLASSIC == 0 or (c.Z_BITS == 15 and c.Z_FRAC == 0 and c.FACE_BITS == 7 and c.DX_BITS == 9)),
     ("MAX_WIDTH must be at most 2^X_BITS - 1: xr may be the width", lambda c: c.MAX_WIDTH < 1 << c.X_BITS),
 ]
 
+# Those that came later: a core that has 0 of one hashes as it did before.
+LATE = {"LINEAR_BITS", "ACTIVE"}
+
 # Numbers that follow from the parameters.
 DERIVED = {
     "has_table": lambda c: c.CLASS_BITS > 1,  # a light's share is looked up in a table, by class
-    "has_loads": lambda c: c.TRANSLUCENCY > 0 and c.COUNT_BITS > 0,  # colours come back: a line with samples leaves to be darkened before its first TP
+    "has_loads": lambda c: c.TRANSLUCENCY > 0 and (c.COUNT_BITS > 0 or c.LINEAR_BITS > 0),  # colours come back: a line with samples leaves to be darkened, or one with linear light to be displayed, before its first TP
+    "has_passes": lambda c: c.LINEAR_BITS > 0,  # a line's lights are added one after the other
     "clear_depth": lambda c: (1 << c.Z_BITS) - 1,  # a pixel's depth where nothing has been drawn
     "most_depth": lambda c: (1 << c.Z_BITS) - 2,  # the greatest depth that is drawn; the least is 1
     "blank_face": lambda c: (1 << c.FACE_BITS) - 1,  # the face of a segment that shows nothing
@@ -83,34 +91,44 @@ DERIVED = {
     "alpha_field_bits": lambda c: 8 if c.TRANSLUCENCY > 0 else 0,  # a polygon's alpha
     "segment_depth_bits": lambda c: 15 if c.CLASSIC > 0 else DERIVED["depth_bits"](c),  # a segment's depth; the paper's is unsigned
     "smooth_bits": lambda c: 10 + c.COLOR_FRAC,  # one channel of a colour that changes along its span, and of its slope
+    "pixel_level_bits": lambda c: c.LINEAR_BITS if c.LINEAR_BITS > 0 else 8,  # one channel of a colour that a pixel holds
+    "lane_level_bits": lambda c: c.LINEAR_BITS + c.COUNT_BITS if c.LINEAR_BITS > 0 else 8,  # one channel of a span's colour at a pixel
+    "served_bits": lambda c: 1 if c.LINEAR_BITS > 0 else 0,  # the pass of a pixel's newest light
+    "pass_samples_bits": lambda c: c.COUNT_BITS if c.LINEAR_BITS > 0 else 0,  # the samples of a light that RESOLVE tells
     "ramp_bits": lambda c: DERIVED["smooth_bits"](c) if c.SMOOTH > 0 else 8,  # one channel of a span's colour
     "slope_field_bits": lambda c: DERIVED["smooth_bits"](c) if c.SMOOTH > 0 else 0,  # one channel of a span's colour slope
     "color_bits": lambda c: c.CHANNELS * DERIVED["ramp_bits"](c),  # a span's colour
     "slope_bits": lambda c: DERIVED["color_bits"](c) if c.SMOOTH > 0 else 1,  # a span's colour slope, on a bus
     "dsf_bus_bits": lambda c: c.DSF_BITS if c.DSF_BITS > 0 else 1,  # shadow counter, bias
-    "class_field_bits": lambda c: c.CLASS_BITS if c.DSF_BITS > 0 else 0,  # the class of a pixel, a face, and the tree's pixel
+    "class_field_bits": lambda c: c.CLASS_BITS if c.DSF_BITS > 0 and c.LINEAR_BITS == 0 else 0,  # the class of a pixel, a face, and the tree's pixel
     "light_bits": lambda c: 3 if c.LIGHTS > 4 else (2 if c.LIGHTS > 2 else 1),  # a light's number
     "light_at": lambda c: 0 if c.FSF > 0 else DERIVED["dsf_bus_bits"](c),  # ES's light in its command's count; below it, without FSF, the bias
     "sample_end_bits": lambda c: DERIVED["light_at"](c) + DERIVED["light_bits"](c) if c.LIGHTS > 1 else 1,  # ES in its command's count
+    "pass_rest_bits": lambda c: c.COUNT_BITS if c.COUNT_BITS > 0 and c.LINEAR_BITS > 0 else DERIVED["dsf_bus_bits"](c),  # samples, or without counters bias, of an OP behind a RESOLVE
+    "pass_bits": lambda c: 1 + DERIVED["pass_rest_bits"](c) if c.LINEAR_BITS > 0 else 1,  # of an OP behind a RESOLVE in its command's count: {samples, or without counters bias, pass}
+    "light_count_bits": lambda c: DERIVED["sample_end_bits"](c) if DERIVED["sample_end_bits"](c) > DERIVED["pass_bits"](c) else DERIVED["pass_bits"](c),  # ES, or an OP behind a RESOLVE, in its command's count
     "plain_count_bits": lambda c: DERIVED["dsf_bus_bits"](c) if DERIVED["dsf_bus_bits"](c) > c.CLASS_BITS else c.CLASS_BITS,  # w, bias or class in a command's count
-    "command_count_bits": lambda c: DERIVED["plain_count_bits"](c) if DERIVED["plain_count_bits"](c) > DERIVED["sample_end_bits"](c) else DERIVED["sample_end_bits"](c),  # a command's count: w, bias, class, or of ES {light, bias}
-    "share_bits": lambda c: 1 if c.TRANSLUCENCY == 0 else (DERIVED["factor_bits"](c) if c.COUNT_BITS == 0 and c.SHADE_FRAC > 7 else 8),  # TP's alpha, or RESOLVE's shade
-    "rgb_bits": lambda c: 8 * c.CHANNELS,  # one pixel's colour
+    "command_count_bits": lambda c: DERIVED["plain_count_bits"](c) if DERIVED["plain_count_bits"](c) > DERIVED["light_count_bits"](c) else DERIVED["light_count_bits"](c),  # a command's count: w, bias, class, of ES {light, bias}, or the pass
+    "share_bits": lambda c: 1 if c.TRANSLUCENCY == 0 else (DERIVED["factor_bits"](c) if c.COUNT_BITS == 0 and c.LINEAR_BITS == 0 and c.SHADE_FRAC > 7 else 8),  # TP's alpha, or RESOLVE's shade
+    "rgb_bits": lambda c: 8 * c.CHANNELS,  # one pixel's colour as it is displayed
+    "pixel_rgb_bits": lambda c: c.CHANNELS * DERIVED["pixel_level_bits"](c),  # one pixel's colour as it is held
+    "lane_rgb_bits": lambda c: c.CHANNELS * DERIVED["lane_level_bits"](c),  # a span's colour at one pixel
     "look_bits": lambda c: DERIVED["class_field_bits"](c) + DERIVED["weight_field_bits"](c) + DERIVED["alpha_field_bits"](c) + DERIVED["rgb_bits"](c),  # a polygon's class, weight, alpha and flat colour, as POLYGON has them
     "gradients_bits": lambda c: c.CHANNELS * 3 * DERIVED["color_plane_bits"](c) if c.SMOOTH > 0 else 0,  # the planes of a polygon's colour: of each channel value, right and down
     "tally_bits": lambda c: c.LIGHTS * c.COUNT_BITS,  # a pixel's counters
+    "exit_tally_bits": lambda c: 0 if c.LINEAR_BITS > 0 else DERIVED["tally_bits"](c),  # the counters of a pixel that leaves
     "exit_class_bits": lambda c: c.CLASS_BITS if DERIVED["has_table"](c) else 0,  # the class of a pixel that leaves
-    "dark_bits": lambda c: 1 if c.COUNT_BITS == 0 and c.DSF_BITS > 0 else 0,  # whether a pixel that leaves is in shadow, where no counts say it
+    "dark_bits": lambda c: 1 if c.COUNT_BITS == 0 and c.DSF_BITS > 0 and c.LINEAR_BITS == 0 else 0,  # whether a pixel that leaves is in shadow, where no counts say it
     "entry_share_bits": lambda c: c.CHANNELS * DERIVED["factor_bits"](c),  # an entry of the light table
-    "light_stages": lambda c: 0 if c.COUNT_BITS == 0 else (5 if DERIVED["has_table"](c) else 2),  # clocks of light_resolve
+    "light_stages": lambda c: 8 if c.LINEAR_BITS > 0 else (0 if c.COUNT_BITS == 0 else (5 if DERIVED["has_table"](c) else 2)),  # clocks of light_resolve, or of display_curve
     "unit_bits": lambda c: 6 if c.UNITS > 32 else (5 if c.UNITS > 16 else (4 if c.UNITS > 8 else (3 if c.UNITS > 4 else (2 if c.UNITS > 2 else 1)))),  # an expansion unit's number
     "key_bits": lambda c: c.Z_BITS + c.ORDER_BITS,  # what the compare tree compares: {Z, index}
-    "pixel_bits": lambda c: c.Z_BITS + DERIVED["rgb_bits"](c) + DERIVED["class_field_bits"](c) + c.DSF_BITS + c.FSF + DERIVED["tally_bits"](c),  # a pixel's state
-    "exit_bits": lambda c: DERIVED["rgb_bits"](c) + 1 + DERIVED["exit_class_bits"](c) + DERIVED["tally_bits"](c) + DERIVED["dark_bits"](c),  # a pixel that leaves
-    "entry_bits": lambda c: c.ORDER_BITS + DERIVED["class_field_bits"](c) + DERIVED["depth_bits"](c) + DERIVED["rgb_bits"](c),  # a face in its unit's table, as FACE has it from index on
+    "pixel_bits": lambda c: c.Z_BITS + DERIVED["pixel_rgb_bits"](c) + DERIVED["class_field_bits"](c) + c.DSF_BITS + c.FSF + DERIVED["tally_bits"](c) + DERIVED["served_bits"](c),  # a pixel's state
+    "exit_bits": lambda c: DERIVED["pixel_rgb_bits"](c) + 1 + DERIVED["exit_class_bits"](c) + DERIVED["exit_tally_bits"](c) + DERIVED["dark_bits"](c),  # a pixel that leaves
+    "entry_bits": lambda c: c.ORDER_BITS + DERIVED["class_field_bits"](c) + DERIVED["depth_bits"](c) + DERIVED["pixel_rgb_bits"](c),  # a face in its unit's table, as FACE has it from index on
     "walked_edge_bits": lambda c: DERIVED["crossing_bits"](c) + DERIVED["crossing_bits"](c) + DERIVED["edge_rest_bits"](c) + DERIVED["edge_rest_bits"](c) + DERIVED["edge_rest_bits"](c),  # an edge on its way down, as hls/kernels/edge.hpp has it
     "active_bits": lambda c: DERIVED["place_bits"](c) + DERIVED["end_line_bits"](c) + DERIVED["walked_edge_bits"](c) + DERIVED["walked_edge_bits"](c) + DERIVED["look_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["plane_bits"](c) + DERIVED["gradients_bits"](c),  # a polygon that the front end keeps from line to line
-    "point_bits": lambda c: DERIVED["class_field_bits"](c) + DERIVED["rgb_bits"](c) + c.ORDER_BITS + c.Z_BITS,  # a pixel in the compare tree, with its key highest
+    "point_bits": lambda c: DERIVED["class_field_bits"](c) + DERIVED["pixel_rgb_bits"](c) + c.ORDER_BITS + c.Z_BITS,  # a pixel in the compare tree, with its key highest
 }
 
 # Words of a frame's header: [(field, bits), ...] from the lowest bit up.
@@ -124,7 +142,7 @@ HEADER = [
 
 # name: (kind in its words, level that it is of or "", whether a configuration has it, its fields in a configuration: [(name, bits, signed, channels or 0), ...])
 TOKENS = {
-    "SHADE": (1, "", lambda c: 0 if c.CLASS_BITS > 1 else c.DSF_BITS > 0, lambda c: [
+    "SHADE": (1, "", lambda c: 0 if c.CLASS_BITS > 1 or c.LINEAR_BITS > 0 else c.DSF_BITS > 0, lambda c: [
         ("shade", DERIVED["factor_bits"](c), False, 0),
     ]),
     "TABLE": (2, "", lambda c: c.CLASS_BITS > 1, lambda c: [
@@ -138,7 +156,7 @@ TOKENS = {
         ("index", c.ORDER_BITS, False, 0),
         ("class", DERIVED["class_field_bits"](c), False, 0),
         ("dz", DERIVED["depth_bits"](c), True, 0),
-        ("color", 8, False, c.CHANNELS),
+        ("color", DERIVED["pixel_level_bits"](c), False, c.CHANNELS),
     ]),
     "SEG": (4, "", lambda c: c.UNITS > 0, lambda c: [
         ("unit", DERIVED["unit_bits"](c), False, 0),
@@ -182,7 +200,9 @@ TOKENS = {
         ("xr", c.X_BITS, False, 0),
         ("light", DERIVED["light_bits"](c), False, 0),
     ]),
-    "RESOLVE": (12, "spans", lambda c: c.DSF_BITS > 0, lambda c: []),
+    "RESOLVE": (12, "spans", lambda c: c.DSF_BITS > 0, lambda c: [
+        ("samples", DERIVED["pass_samples_bits"](c), False, 0),
+    ]),
     "TP": (13, "", lambda c: c.TRANSLUCENCY > 0, lambda c: [
         ("xl", c.X_BITS, False, 0),
         ("xr", c.X_BITS, False, 0),
@@ -241,7 +261,7 @@ TEXTS = {
     "IF": ["IF w ", ("sign", "w")],
     "EV": ["EV [", ("plain", "xl"), ", ", ("plain", "xr"), ")"],
     "ES": ["ES [", ("plain", "xl"), ", ", ("plain", "xr"), ") light ", ("plain", "light")],
-    "RESOLVE": ["RESOLVE"],
+    "RESOLVE": ["RESOLVE", ("samples", "samples")],
     "TP": ["TP [", ("plain", "xl"), ", ", ("plain", "xr"), ") z ", ("depth", "z"), " dz ", ("depth", "dz"), " color ", ("ramp", "color", "dcolor"), " alpha ", ("plain", "alpha")],
     "EOL": ["EOL ", ("plain", "y")],
     "END": ["END"],
@@ -330,6 +350,7 @@ class Config:
     SEG_BITS: int = 7
     ORDER_BITS: int = 8
     CLASSIC: int = 0
+    LINEAR_BITS: int = 0
     ARRANGEMENT: int = 1
     LANES: int = 4
     MAX_WIDTH: int = 640
@@ -356,7 +377,7 @@ class Config:
         """The param_hash that a frame's header has for the configuration."""
         h = 2166136261
         for name, (_, _, _, _, affects_pixels, _) in PARAMETERS.items():
-            if affects_pixels:
+            if affects_pixels and not (name in LATE and getattr(self, name) == 0):
                 h = (h ^ getattr(self, name)) * 16777619 % 2**32
         return h
 
@@ -508,7 +529,7 @@ class Codec:
         return ",".join(number(v / unit) + s for v, s in zip(color, slopes))
 
     def _class(self, _, value):
-        if self.config.DSF_BITS == 0:
+        if self.config.DSF_BITS == 0 or self.config.LINEAR_BITS > 0:
             return ""
         if self.config.CLASS_BITS == 1:
             return " lit" if value else " unlit"
@@ -516,6 +537,9 @@ class Codec:
 
     def _face(self, name, face, z):
         return " blank" if face == 2**self.config.FACE_BITS - 1 else f" face {face} z {self._depth(name, z)}"
+
+    def _samples(self, name, value):
+        return f" {value}" if DERIVED["pass_samples_bits"](self.config) > 0 else ""
 
     def _flag(self, name, value):
         return f" {name}" if value else ""

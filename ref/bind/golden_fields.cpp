@@ -23,8 +23,11 @@ long long token_field(const kage::Config& config, const kage::Layout& layout, co
 int pixel_field(const kage::Config& config, const kage::LineView& line, int x, int field) {
   const kage::PixelState p = line.pixel(x);
   const bool clear = p.z == kage::derived::clear_depth(config);
-  if (field >= KAGE_PIXEL_COUNT) return static_cast<int>(p.counts[static_cast<std::size_t>(field - KAGE_PIXEL_COUNT)]);
+  if (field >= KAGE_PIXEL_COUNT && field < KAGE_PIXEL_SERVED)
+    return static_cast<int>(p.counts[static_cast<std::size_t>(field - KAGE_PIXEL_COUNT)]);
   switch (field) {
+    case KAGE_PIXEL_SERVED:
+      return static_cast<int>(p.served);
     case KAGE_PIXEL_Z:
       return static_cast<int>(p.z);
     case KAGE_PIXEL_CLASS:

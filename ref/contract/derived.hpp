@@ -14,8 +14,10 @@ namespace kage::derived {
 
 /// a light's share is looked up in a table, by class
 constexpr bool has_table(const Config& c) { return c.class_bits > 1; }
-/// colours come back: a line with samples leaves to be darkened before its first TP
-constexpr bool has_loads(const Config& c) { return c.translucency > 0 && c.count_bits > 0; }
+/// colours come back: a line with samples leaves to be darkened, or one with linear light to be displayed, before its first TP
+constexpr bool has_loads(const Config& c) { return c.translucency > 0 && (c.count_bits > 0 || c.linear_bits > 0); }
+/// a line's lights are added one after the other
+constexpr bool has_passes(const Config& c) { return c.linear_bits > 0; }
 /// a pixel's depth where nothing has been drawn
 constexpr std::uint32_t clear_depth(const Config& c) { return static_cast<std::uint32_t>((1 << c.z_bits) - 1); }
 /// the greatest depth that is drawn; the least is 1
@@ -50,6 +52,14 @@ constexpr int alpha_field_bits(const Config& c) { return c.translucency > 0 ? 8 
 constexpr int segment_depth_bits(const Config& c) { return c.classic > 0 ? 15 : depth_bits(c); }
 /// one channel of a colour that changes along its span, and of its slope
 constexpr int smooth_bits(const Config& c) { return 10 + c.color_frac; }
+/// one channel of a colour that a pixel holds
+constexpr int pixel_level_bits(const Config& c) { return c.linear_bits > 0 ? c.linear_bits : 8; }
+/// one channel of a span's colour at a pixel
+constexpr int lane_level_bits(const Config& c) { return c.linear_bits > 0 ? c.linear_bits + c.count_bits : 8; }
+/// the pass of a pixel's newest light
+constexpr int served_bits(const Config& c) { return c.linear_bits > 0 ? 1 : 0; }
+/// the samples of a light that RESOLVE tells
+constexpr int pass_samples_bits(const Config& c) { return c.linear_bits > 0 ? c.count_bits : 0; }
 /// one channel of a span's colour
 constexpr int ramp_bits(const Config& c) { return c.smooth > 0 ? smooth_bits(c) : 8; }
 /// one channel of a span's colour slope
@@ -61,60 +71,74 @@ constexpr int slope_bits(const Config& c) { return c.smooth > 0 ? color_bits(c) 
 /// shadow counter, bias
 constexpr int dsf_bus_bits(const Config& c) { return c.dsf_bits > 0 ? c.dsf_bits : 1; }
 /// the class of a pixel, a face, and the tree's pixel
-constexpr int class_field_bits(const Config& c) { return c.dsf_bits > 0 ? c.class_bits : 0; }
+constexpr int class_field_bits(const Config& c) { return c.dsf_bits > 0 && c.linear_bits == 0 ? c.class_bits : 0; }
 /// a light's number
 constexpr int light_bits(const Config& c) { return c.lights > 4 ? 3 : (c.lights > 2 ? 2 : 1); }
 /// ES's light in its command's count; below it, without FSF, the bias
 constexpr int light_at(const Config& c) { return c.fsf > 0 ? 0 : dsf_bus_bits(c); }
 /// ES in its command's count
 constexpr int sample_end_bits(const Config& c) { return c.lights > 1 ? light_at(c) + light_bits(c) : 1; }
+/// samples, or without counters bias, of an OP behind a RESOLVE
+constexpr int pass_rest_bits(const Config& c) { return c.count_bits > 0 && c.linear_bits > 0 ? c.count_bits : dsf_bus_bits(c); }
+/// of an OP behind a RESOLVE in its command's count: {samples, or without counters bias, pass}
+constexpr int pass_bits(const Config& c) { return c.linear_bits > 0 ? 1 + pass_rest_bits(c) : 1; }
+/// ES, or an OP behind a RESOLVE, in its command's count
+constexpr int light_count_bits(const Config& c) { return sample_end_bits(c) > pass_bits(c) ? sample_end_bits(c) : pass_bits(c); }
 /// w, bias or class in a command's count
 constexpr int plain_count_bits(const Config& c) { return dsf_bus_bits(c) > c.class_bits ? dsf_bus_bits(c) : c.class_bits; }
-/// a command's count: w, bias, class, or of ES {light, bias}
-constexpr int command_count_bits(const Config& c) { return plain_count_bits(c) > sample_end_bits(c) ? plain_count_bits(c) : sample_end_bits(c); }
+/// a command's count: w, bias, class, of ES {light, bias}, or the pass
+constexpr int command_count_bits(const Config& c) { return plain_count_bits(c) > light_count_bits(c) ? plain_count_bits(c) : light_count_bits(c); }
 /// TP's alpha, or RESOLVE's shade
-constexpr int share_bits(const Config& c) { return c.translucency == 0 ? 1 : (c.count_bits == 0 && c.shade_frac > 7 ? factor_bits(c) : 8); }
-/// one pixel's colour
+constexpr int share_bits(const Config& c) { return c.translucency == 0 ? 1 : (c.count_bits == 0 && c.linear_bits == 0 && c.shade_frac > 7 ? factor_bits(c) : 8); }
+/// one pixel's colour as it is displayed
 constexpr int rgb_bits(const Config& c) { return 8 * c.channels; }
+/// one pixel's colour as it is held
+constexpr int pixel_rgb_bits(const Config& c) { return c.channels * pixel_level_bits(c); }
+/// a span's colour at one pixel
+constexpr int lane_rgb_bits(const Config& c) { return c.channels * lane_level_bits(c); }
 /// a polygon's class, weight, alpha and flat colour, as POLYGON has them
 constexpr int look_bits(const Config& c) { return class_field_bits(c) + weight_field_bits(c) + alpha_field_bits(c) + rgb_bits(c); }
 /// the planes of a polygon's colour: of each channel value, right and down
 constexpr int gradients_bits(const Config& c) { return c.smooth > 0 ? c.channels * 3 * kColorPlaneBits : 0; }
 /// a pixel's counters
 constexpr int tally_bits(const Config& c) { return c.lights * c.count_bits; }
+/// the counters of a pixel that leaves
+constexpr int exit_tally_bits(const Config& c) { return c.linear_bits > 0 ? 0 : tally_bits(c); }
 /// the class of a pixel that leaves
 constexpr int exit_class_bits(const Config& c) { return has_table(c) ? c.class_bits : 0; }
 /// whether a pixel that leaves is in shadow, where no counts say it
-constexpr int dark_bits(const Config& c) { return c.count_bits == 0 && c.dsf_bits > 0 ? 1 : 0; }
+constexpr int dark_bits(const Config& c) { return c.count_bits == 0 && c.dsf_bits > 0 && c.linear_bits == 0 ? 1 : 0; }
 /// an entry of the light table
 constexpr int entry_share_bits(const Config& c) { return c.channels * factor_bits(c); }
-/// clocks of light_resolve
-constexpr int light_stages(const Config& c) { return c.count_bits == 0 ? 0 : (has_table(c) ? 5 : 2); }
+/// clocks of light_resolve, or of display_curve
+constexpr int light_stages(const Config& c) { return c.linear_bits > 0 ? 8 : (c.count_bits == 0 ? 0 : (has_table(c) ? 5 : 2)); }
 /// an expansion unit's number
 constexpr int unit_bits(const Config& c) { return c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))); }
 /// what the compare tree compares: {Z, index}
 constexpr int key_bits(const Config& c) { return c.z_bits + c.order_bits; }
 /// a pixel's state
-constexpr int pixel_bits(const Config& c) { return c.z_bits + rgb_bits(c) + class_field_bits(c) + c.dsf_bits + c.fsf + tally_bits(c); }
+constexpr int pixel_bits(const Config& c) { return c.z_bits + pixel_rgb_bits(c) + class_field_bits(c) + c.dsf_bits + c.fsf + tally_bits(c) + served_bits(c); }
 /// a pixel that leaves
-constexpr int exit_bits(const Config& c) { return rgb_bits(c) + 1 + exit_class_bits(c) + tally_bits(c) + dark_bits(c); }
+constexpr int exit_bits(const Config& c) { return pixel_rgb_bits(c) + 1 + exit_class_bits(c) + exit_tally_bits(c) + dark_bits(c); }
 /// a face in its unit's table, as FACE has it from index on
-constexpr int entry_bits(const Config& c) { return c.order_bits + class_field_bits(c) + depth_bits(c) + rgb_bits(c); }
+constexpr int entry_bits(const Config& c) { return c.order_bits + class_field_bits(c) + depth_bits(c) + pixel_rgb_bits(c); }
 /// an edge on its way down, as hls/kernels/edge.hpp has it
 constexpr int walked_edge_bits(const Config& /*c*/) { return kCrossingBits + kCrossingBits + kEdgeRestBits + kEdgeRestBits + kEdgeRestBits; }
 /// a polygon that the front end keeps from line to line
 constexpr int active_bits(const Config& c) { return kPlaceBits + kEndLineBits + walked_edge_bits(c) + walked_edge_bits(c) + look_bits(c) + plane_bits(c) + plane_bits(c) + plane_bits(c) + gradients_bits(c); }
 /// a pixel in the compare tree, with its key highest
-constexpr int point_bits(const Config& c) { return class_field_bits(c) + rgb_bits(c) + c.order_bits + c.z_bits; }
+constexpr int point_bits(const Config& c) { return class_field_bits(c) + pixel_rgb_bits(c) + c.order_bits + c.z_bits; }
 
 /// Commands that are no token, by kinds of tokens that never become commands.
 inline constexpr Kind kCommandLoad = static_cast<Kind>(1);  ///< a line's pixel comes back
 inline constexpr Kind kCommandOut = static_cast<Kind>(2);  ///< a line's pixels leave but stay
+inline constexpr Kind kCommandLight = static_cast<Kind>(9);  ///< an OP behind a RESOLVE of linear light: the light comes to the pixels
 
 /// The name of a command that is no token; empty of one that is.
 constexpr std::string_view command_name(Kind k) {
   if (k == kCommandLoad) return "LOAD";
   if (k == kCommandOut) return "OUT";
+  if (k == kCommandLight) return "LIGHT";
   return {};
 }
 

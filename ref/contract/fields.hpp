@@ -104,6 +104,9 @@ constexpr void visit_fields([[maybe_unused]] const Config& config, [[maybe_unuse
     f("xr", -1, token.span.xr, layout.es_xr);
     f("light", -1, token.table.light, layout.es_light);
   }
+  if constexpr (K == Kind::RESOLVE) {
+    if (layout.resolve_samples.bits != 0) f("samples", -1, token.samples, layout.resolve_samples);
+  }
   if constexpr (K == Kind::TP) {
     f("xl", -1, token.span.xl, layout.tp_xl);
     f("xr", -1, token.span.xr, layout.tp_xr);

@@ -38,6 +38,8 @@ constexpr Marks marks_of(const Config& c) {
 /// Where a kind may stand, and how it changes phase and marks.
 struct Rule {
   std::uint8_t in = 0;  ///< bit p: it may stand in phase p
+  std::uint8_t in_passes = 0;  ///< likewise, with LINEAR_BITS besides
+  std::uint8_t stays = 0;      ///< bit p: phase p stays
   Marks with = 0;       ///< these must be set
   Marks without = 0;    ///< and these clear
   Marks sets = 0;
@@ -45,29 +47,33 @@ struct Rule {
   bool moves = false;   ///< to phase `to`; else the phase stays
   Phase to{};
 
-  [[nodiscard]] constexpr bool allows(Phase phase, Marks marks) const {
-    return (in >> static_cast<unsigned>(phase) & 1U) != 0 && (marks & with) == with && (marks & without) == 0;
+  [[nodiscard]] constexpr bool allows(Phase phase, Marks marks, const Config& c) const {
+    const auto phases = static_cast<unsigned>(c.linear_bits > 0 ? in | in_passes : in);
+    return (phases >> static_cast<unsigned>(phase) & 1U) != 0 && (marks & with) == with && (marks & without) == 0;
+  }
+  [[nodiscard]] constexpr bool leads_on(Phase phase) const {
+    return moves && (static_cast<unsigned>(stays) >> static_cast<unsigned>(phase) & 1U) == 0;
   }
 };
 
 /// By kind; what is no kind may stand nowhere.
 inline constexpr std::array<Rule, kKinds> kRules{{
     {},
-    {0b0000001, 0, kShade, kShade, 0, false, {}},  // SHADE
-    {0b0000001, 0, 0, 0, 0, false, {}},  // TABLE
-    {0b0000001, 0, 0, 0, 0, false, {}},  // FACE
-    {0b0000011, 0, 0, kTree, 0, true, Phase::ahead},  // SEG
-    {0b0000010, 0, 0, 0, 0, true, Phase::opaque},  // TREE
-    {0b0000101, 0, 0, 0, 0, true, Phase::opaque},  // OP
-    {0b0001101, 0, 0, kVolume | kSample, 0, true, Phase::volume},  // SP
-    {0b0001101, 0, 0, kVolume | kSample, 0, true, Phase::volume},  // NC
-    {0b0001101, 0, 0, kVolume | kSample, 0, true, Phase::volume},  // IF
-    {0b0001000, kVolume, 0, 0, kVolume, false, {}},  // EV
-    {0b0001000, kSample, kVolume, 0, kSample, false, {}},  // ES
-    {0b0001000, 0, kVolume | kSample, 0, 0, true, Phase::resolved},  // RESOLVE
-    {0b0110101, 0, 0, 0, 0, true, Phase::translucent},  // TP
-    {0b0110101, 0, 0, 0, kVolume | kSample, true, Phase::ahead},  // EOL
-    {0b1111111, 0, 0, 0, 0, false, {}},  // END
+    {0b0000001, 0b0000000, 0b0000000, 0, kShade, kShade, 0, false, {}},  // SHADE
+    {0b0000001, 0b0000000, 0b0000000, 0, 0, 0, 0, false, {}},  // TABLE
+    {0b0000001, 0b0000000, 0b0000000, 0, 0, 0, 0, false, {}},  // FACE
+    {0b0000011, 0b0000000, 0b0000000, 0, 0, kTree, 0, true, Phase::ahead},  // SEG
+    {0b0000010, 0b0000000, 0b0000000, 0, 0, 0, 0, true, Phase::opaque},  // TREE
+    {0b0000101, 0b0010000, 0b0010000, 0, 0, 0, 0, true, Phase::opaque},  // OP
+    {0b0001101, 0b0010000, 0b0000000, 0, 0, kVolume | kSample, 0, true, Phase::volume},  // SP
+    {0b0001101, 0b0010000, 0b0000000, 0, 0, kVolume | kSample, 0, true, Phase::volume},  // NC
+    {0b0001101, 0b0010000, 0b0000000, 0, 0, kVolume | kSample, 0, true, Phase::volume},  // IF
+    {0b0001000, 0b0000000, 0b0000000, kVolume, 0, 0, kVolume, false, {}},  // EV
+    {0b0001000, 0b0000000, 0b0000000, kSample, kVolume, 0, kSample, false, {}},  // ES
+    {0b0001000, 0b0010101, 0b0000000, 0, kVolume | kSample, 0, 0, true, Phase::resolved},  // RESOLVE
+    {0b0110101, 0b0000000, 0b0000000, 0, 0, 0, 0, true, Phase::translucent},  // TP
+    {0b0110101, 0b0000000, 0b0000000, 0, 0, 0, kVolume | kSample, true, Phase::ahead},  // EOL
+    {0b1111111, 0b0000000, 0b0000000, 0, 0, 0, 0, false, {}},  // END
     {},
     {},
     {},

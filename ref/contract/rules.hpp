@@ -35,7 +35,7 @@ class TokenRules {
   /// The error of this token, which has index `token`, or NONE; then the machine has moved on. Kinds that the
   /// configuration lacks are the caller's.
   ErrorCode accept(const Token& t, std::uint32_t token) {
-    if (!rule(t.kind).allows(phase_, marks_)) return ErrorCode::ORDER;
+    if (!rule(t.kind).allows(phase_, marks_, *config_)) return ErrorCode::ORDER;
     if (!in_range(t)) return ErrorCode::RANGE;
     if (const ErrorCode e = accept_segment(t, token); e != ErrorCode::NONE) return e;
     if (t.kind == Kind::EOL && t.y != line_) return ErrorCode::LINE;
@@ -102,7 +102,7 @@ class TokenRules {
   void move(Kind k) {
     const order_rules::Rule& r = rule(k);
     marks_ = static_cast<order_rules::Marks>(((marks_ & ~r.clears) | r.sets) & marks_of_core_);
-    if (r.moves) phase_ = order_rules::entered(r.to, marks_);
+    if (r.leads_on(phase_)) phase_ = order_rules::entered(r.to, marks_);
     if (k == Kind::TABLE && ++next_light_ == config_->lights) {
       next_light_ = 0;
       ++next_class_;

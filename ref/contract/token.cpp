@@ -51,9 +51,9 @@ class TokenText {
       if (config_.smooth != 0) add("{:+}", slope[c] * color_unit_);
     });
   }
-  /// Nothing in a core without shadows.
+  /// Nothing in a core whose spans have none.
   void as_class(int normal_class) {
-    if (config_.dsf_bits == 0) return;
+    if (derived::class_field_bits(config_) == 0) return;
     if (!derived::has_table(config_))
       text(normal_class != 0 ? " lit" : " unlit");
     else
@@ -63,6 +63,9 @@ class TokenText {
     if (face == derived::blank_face(config_)) return text(" blank");
     add(" face {} z ", face);
     as_depth(z);
+  }
+  void as_samples(int samples) {
+    if (derived::pass_samples_bits(config_) > 0) add(" {}", samples);
   }
   void as_flag(std::string_view name, bool set) {
     if (set) add(" {}", name);
@@ -173,7 +176,10 @@ void TokenWriter::es(int xl, int xr, int light) {
   } t{{xl, xr}, {light}};
   pack<Kind::ES>(t);
 }
-void TokenWriter::resolve() { pack<Kind::RESOLVE>(0); }
+void TokenWriter::resolve(int samples) {
+  const struct { int samples; } t{samples};
+  pack<Kind::RESOLVE>(t);
+}
 void TokenWriter::tp(const SpanToken& s) { pack<Kind::TP>(OfSpan{s}); }
 void TokenWriter::eol(int y) {
   const struct { int y; } t{y};

@@ -102,6 +102,7 @@ void tell_token(Out& out, const Token& t) {
       break;
     case Kind::RESOLVE:
       out.text("RESOLVE");
+      out.as_samples(t.samples);
       break;
     case Kind::TP:
       out.text("TP [");

@@ -85,7 +85,7 @@ struct GoldenCore::Data {
         parts.pixels.es(done.span.xl, done.span.xr, done.table.light);
         break;
       case Kind::RESOLVE:
-        parts.pixels.resolve();
+        parts.pixels.resolve(done.samples);
         break;
       default:
         break;

@@ -15,7 +15,8 @@ void ExpansionUnit::start() {
 }
 
 void ExpansionUnit::add_face(const SegmentToken& f) {
-  const std::uint64_t attr = static_cast<std::uint64_t>(f.normal_class) << kPackedBits | packed_color(f.color);
+  const int bits = derived::pixel_level_bits(config_);
+  const std::uint64_t attr = static_cast<std::uint64_t>(f.normal_class) << 3 * bits | packed_levels(f.color, bits);
   faces_.push_back({f.dz, static_cast<std::uint32_t>(f.index), attr});
 }
 

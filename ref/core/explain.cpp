@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "contract/derived.hpp"
+#include "contract/display_curve.hpp"
 #include "contract/kinds.hpp"
 #include "core/span_value.hpp"
 #include "kage/error.hpp"
@@ -12,7 +15,7 @@
 
 namespace kage {
 
-std::string color_text(const Config& c, const std::array<std::uint8_t, 3>& color) {
+std::string color_text(const Config& c, const std::array<std::uint16_t, 3>& color) {
   return c.channels == 1 ? fmt::format("{}", color[0]) : fmt::format("{},{},{}", color[0], color[1], color[2]);
 }
 
@@ -31,6 +34,11 @@ class History : public CoreObserver {
               const LineView& line) override {
     ++nth_;
     if (t.kind == Kind::SHADE) shade_ = t.shade;
+    if (t.kind == Kind::EOL) lit_ = false;
+    if (t.kind == Kind::RESOLVE && config_.linear_bits > 0) {
+      lit_ = true;
+      samples_ = t.samples;
+    }
     // An EOL that was accepted counts as a line that has ended.
     here_ = (t.kind == Kind::EOL ? t.y : line.y()) == y_ && x_ < line.width() && touches(t);
     if (!here_) return;
@@ -43,6 +51,9 @@ class History : public CoreObserver {
     if (touch_.made) touch_.text += ", made by the front end";
     touch_.before = line.pixel(x_);
     touch_.bias_before = line.bias();
+    if (t.kind == Kind::RESOLVE) lit_bias_ = touch_.bias_before;
+    shadowed_ =
+        config_.fsf != 0 ? touch_.before.fsf != 0 : ((touch_.before.dsf + lit_bias_) & derived::most_dsf(config_)) != 0;
     background_ = line.background();
     painted_ = line.painted();
     if (t.kind == Kind::EOL) leave();
@@ -84,6 +95,7 @@ class History : public CoreObserver {
     switch (t.kind) {
       case Kind::OP: {
         touch_.z = span_depth(config_, t.span, x_);
+        if (lit_) return light();
         if (*touch_.z >= from.z) return "hidden: " + order(*touch_.z);
         return fmt::format("drawn: {}; colour {}", order(*touch_.z), color_text(config_, to.color));
       }
@@ -116,13 +128,13 @@ class History : public CoreObserver {
                            to.counts[light]);
       }
       case Kind::RESOLVE:
+        if (config_.linear_bits > 0) return "a light follows";
         return resolve();
       case Kind::TP:
         touch_.z = span_depth(config_, t.span, x_);
         if (*touch_.z >= from.z) return "hidden: " + order(*touch_.z);
         return fmt::format("blended over: {}; {} of 255 of {} on {} gives {}", order(*touch_.z), t.span.alpha,
-                           color_text(config_, span_color(config_, t.span, x_)),
-                           color_text(config_, !painted_ && from.z == clear_ ? background() : from.color),
+                           color_text(config_, span_color(config_, t.span, x_, true)), color_text(config_, shown(from)),
                            color_text(config_, to.color));
       default:
         return {};
@@ -153,13 +165,36 @@ class History : public CoreObserver {
                           : fmt::format("in shadow: {}, class {}; {}", counts, from.normal_class, change);
   }
 
-  [[nodiscard]] std::array<std::uint8_t, 3> background() const { return unpacked_color(background_); }
+  // An OP behind a RESOLVE of linear light.
+  [[nodiscard]] std::string light() const {
+    const PixelState& from = touch_.before;
+    if (from.z == clear_) return "nothing is drawn here";
+    if (*touch_.z > from.z) return "hidden: " + order(*touch_.z);
+    if (from.served == touch_.after.served) return "a span before it has brought this light";
+    const std::string change = fmt::format("light {} becomes {} of {}", color_text(config_, from.color),
+                                           color_text(config_, touch_.after.color), 1 << config_.linear_bits);
+    if (config_.count_bits == 0) return (shadowed_ ? "in shadow: " : "lit: ") + change;
+    const int left = std::max(0, samples_ - static_cast<int>(from.counts[0]));
+    return fmt::format("lit by {} of {}: {}", left, counted(static_cast<std::uint32_t>(samples_), "sample"), change);
+  }
+
+  [[nodiscard]] std::array<std::uint16_t, 3> background() const { return unpacked_levels(background_, 8); }
+
+  // A pixel's colour as it is displayed.
+  [[nodiscard]] std::array<std::uint16_t, 3> shown(const PixelState& s) const {
+    if (!painted_ && s.z == clear_) return background();
+    std::array<std::uint16_t, 3> color = s.color;
+    for (int c = 0; c < config_.channels && config_.linear_bits > 0 && !painted_; ++c)
+      color[static_cast<std::size_t>(c)] = displayed(color[static_cast<std::size_t>(c)], config_.linear_bits);
+    return color;
+  }
 
   void leave() {
     const bool drawn = touch_.before.z != clear_ || painted_;
-    history_->color = drawn ? touch_.before.color : background();
-    history_->color_text = drawn ? fmt::format("the pixel leaves with colour {}", color_text(config_, history_->color))
-                                 : fmt::format("nothing was drawn: background {}", color_text(config_, background()));
+    const auto color = shown(touch_.before);
+    for (std::size_t c = 0; c < 3; ++c) history_->color[c] = static_cast<std::uint8_t>(color[c]);
+    history_->color_text = drawn ? fmt::format("the pixel leaves with colour {}", color_text(config_, color))
+                                 : fmt::format("nothing was drawn: background {}", color_text(config_, color));
   }
 
   // Neighbours meet level by level; one without a neighbour goes on alone (docs/tree.md).
@@ -193,6 +228,10 @@ class History : public CoreObserver {
   PixelHistory* history_;
   std::uint32_t nth_ = 0;
   std::uint32_t shade_ = 0;
+  bool lit_ = false;  // the line is behind a RESOLVE of linear light
+  int samples_ = 0;   // that this tells
+  std::uint32_t lit_bias_ = 0;
+  bool shadowed_ = false;  // without counters: its light does not come
   bool here_ = false;
   std::span<const std::uint32_t> came_;  // at the polygon level the words of the stream's token
   PixelTouch touch_;
@@ -222,15 +261,15 @@ PixelHistory explain_pixel(const Config& config, std::span<const std::uint32_t> 
 std::string describe(const Config& config, const PixelState& s) {
   std::string text;
   if (s.z == derived::clear_depth(config))
-    text = s.color == std::array<std::uint8_t, 3>{} ? "clear"
-                                                    : fmt::format("clear, colour {}", color_text(config, s.color));
+    text = s.color == decltype(s.color){} ? "clear" : fmt::format("clear, colour {}", color_text(config, s.color));
   else
     text = fmt::format("Z {}, colour {}", s.z, color_text(config, s.color));
   if (config.dsf_bits == 0) return text;
   if (s.z != derived::clear_depth(config))
-    text += derived::has_table(config) ? fmt::format(", class {}", s.normal_class)
-            : s.normal_class != 0      ? ", lit"
-                                       : ", unlit";
+    text += derived::has_passes(config)  ? ""
+            : derived::has_table(config) ? fmt::format(", class {}", s.normal_class)
+            : s.normal_class != 0        ? ", lit"
+                                         : ", unlit";
   text += fmt::format(", DSF {}", s.dsf);
   if (config.fsf != 0) text += fmt::format(", FSF {}", s.fsf);
   if (config.count_bits > 0)

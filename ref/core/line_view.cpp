@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The current line, as an observer of the golden core sees it.
+#include "contract/derived.hpp"
 #include "core/line_parts.hpp"
 #include "number/packed_color.hpp"
 
@@ -15,22 +16,25 @@ PixelState LineView::pixel(int x) const { return parts_->pixels.state(x); }
 
 namespace {
 
-LineView::UnitPixel unit_pixel_of(const TreeLine& line, int x) {
+LineView::UnitPixel unit_pixel_of(const Config& config, const TreeLine& line, int x) {
   const std::uint64_t key = line.key[static_cast<std::size_t>(x)];
   const std::uint64_t attr = line.attr[static_cast<std::size_t>(x)];
   LineView::UnitPixel p;
   p.z = static_cast<std::uint32_t>(key >> TreeLine::kIndexBits);
   p.index = static_cast<std::uint32_t>(key & TreeLine::kMostIndex);
-  p.color = unpacked_color(attr);
-  p.normal_class = static_cast<std::uint32_t>(attr >> kPackedBits);
+  const int bits = derived::pixel_level_bits(config);
+  p.color = unpacked_levels(attr, bits);
+  p.normal_class = static_cast<std::uint32_t>(attr >> 3 * bits);
   return p;
 }
 
 }  // namespace
 
 LineView::UnitPixel LineView::unit_pixel(int unit, int x) const {
-  return unit_pixel_of(parts_->tree.unit_lines()[static_cast<std::size_t>(unit)], x);
+  return unit_pixel_of(parts_->pixels.config(), parts_->tree.unit_lines()[static_cast<std::size_t>(unit)], x);
 }
-LineView::UnitPixel LineView::tree_pixel(int x) const { return unit_pixel_of(parts_->tree.line(), x); }
+LineView::UnitPixel LineView::tree_pixel(int x) const {
+  return unit_pixel_of(parts_->pixels.config(), parts_->tree.line(), x);
+}
 
 }  // namespace kage

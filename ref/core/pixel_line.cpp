@@ -32,6 +32,7 @@ PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_(derived:
   dsf_.resize(n);
   fsf_.resize(n);
   if (derived::has_table(config)) class_.resize(n);
+  if (derived::has_passes(config)) linear_.emplace(config, n);
   if (config.count_bits > 0) counts_.assign(static_cast<std::size_t>(config.lights), std::vector<std::uint32_t>(n));
 }
 
@@ -47,6 +48,7 @@ void PixelLine::start(int width, std::uint32_t background) {
   std::fill(dsf_.begin(), dsf_.end(), 0U);
   std::fill(fsf_.begin(), fsf_.end(), 0U);
   clear_counts();
+  if (linear_) linear_->clear();
 }
 
 void PixelLine::clear_flags() {
@@ -60,13 +62,42 @@ void PixelLine::tree(const TreeLine& line) {
   for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
     const auto z = static_cast<std::int32_t>(line.key[x] >> TreeLine::kIndexBits);
     const bool front = z < zb_[x];
+    if (linear_) {
+      if (front) linear_->cover(x, unpacked_levels(line.attr[x], config_.linear_bits, config_.channels));
+      zb_[x] = front ? z : zb_[x];
+      continue;
+    }
     attr_[x] = front ? static_cast<std::uint32_t>(line.attr[x]) : attr_[x];
     if (front && !class_.empty()) class_[x] = static_cast<std::uint32_t>(line.attr[x] >> kPackedBits);
     zb_[x] = front ? z : zb_[x];
   }
 }
 
+// Whether a sample, or without counters the light, does not come to a pixel.
+bool PixelLine::in_shadow(std::size_t x, std::uint32_t bias) const {
+  return config_.fsf != 0 ? fsf_[x] != 0 : ((dsf_[x] + bias) & dsf_mask_) != 0;
+}
+
+// An OP of linear light: the light from everywhere where it covers a pixel, or, behind a RESOLVE, a light's own.
+void PixelLine::light(const SpanToken& s) {
+  for (int at = s.xl; at < s.xr; ++at) {
+    const auto x = static_cast<std::size_t>(at);
+    const auto z = static_cast<std::int32_t>(span_depth(config_, s, at));
+    if (!linear_->begun()) {
+      if (z >= zb_[x]) continue;
+      zb_[x] = z;
+      linear_->cover(x, span_color(config_, s, at, false));
+    } else if (z <= zb_[x] && linear_->serve(x)) {
+      const bool counts = !counts_.empty();
+      linear_->add(x, span_levels(config_, s, at), counts ? counts_[0][x] : in_shadow(x, linear_->bias()) ? 1 : 0);
+      if (counts) counts_[0][x] = 0;
+      dsf_[x] = fsf_[x] = 0;
+    }
+  }
+}
+
 void PixelLine::op(const SpanToken& s) {
+  if (linear_) return light(s);
   const DepthRamp ramp = depth_ramp(config_, s);
   const std::uint32_t lit = s.normal_class != 0 ? kLit : 0;
   const ClassSpan classes{class_.empty() ? nullptr : class_.data() + s.xl, static_cast<std::uint32_t>(s.normal_class)};
@@ -138,7 +169,12 @@ std::uint32_t PixelLine::factor(std::size_t x, std::size_t channel) const {
   return lost < one ? one - lost : 0;
 }
 
-void PixelLine::resolve() {
+void PixelLine::resolve(int samples) {
+  if (linear_) {
+    linear_->begin(samples, bias_);
+    bias_ = 0;
+    return;
+  }
   if (config_.count_bits > 0)
     resolve_counts();
   else
@@ -152,9 +188,8 @@ void PixelLine::resolve_flags() {
   const std::uint32_t half = derived::half_share(config_);
   const std::int32_t clear = clear_depth(config_);
   for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
-    const bool shadowed = config_.fsf != 0 ? fsf_[x] != 0 : ((dsf_[x] + bias_) & dsf_mask_) != 0;
     const std::uint32_t a = attr_[x];
-    if (!shadowed || (a & kLit) == 0 || zb_[x] == clear) continue;
+    if (!in_shadow(x, bias_) || (a & kLit) == 0 || zb_[x] == clear) continue;
     std::uint32_t darkened = 0;
     for (unsigned at = 0; at < kPackedBits; at += 8)
       darkened |= (((a >> at & 255U) * keep + half) >> config_.shade_frac) << at;
@@ -178,8 +213,21 @@ void PixelLine::resolve_counts() {
   clear_counts();
 }
 
+// Linear light as it is displayed, and `background` where there is none.
+void PixelLine::show(std::uint32_t background) {
+  const std::int32_t clear = clear_depth(config_);
+  for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x)
+    attr_[x] = zb_[x] == clear ? background : linear_->shown(x);
+}
+
 void PixelLine::tp(const SpanToken& s) {
-  if (!painted_) {
+  if (!painted_ && linear_) {
+    // The way out has cleared the counters; nobody asks for the flags.
+    show(background_);
+    clear_flags();
+    clear_counts();
+    painted_ = true;
+  } else if (!painted_) {
     const std::int32_t clear = clear_depth(config_);
     for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x)
       attr_[x] = zb_[x] == clear ? background_ : attr_[x];
@@ -195,8 +243,10 @@ PixelState PixelLine::state(int x) const {
   s.z = static_cast<std::uint32_t>(zb_[i]);
   const bool clear = zb_[i] == clear_depth(config_);
   // A clear pixel's colour and class may be left from earlier lines, so they are never shown.
-  if (!clear || painted_) s.color = unpacked_color(attr_[i], config_.channels);
-  if (!clear) s.normal_class = class_.empty() ? (attr_[i] & kLit) / kLit : class_[i];
+  if (!clear || painted_)
+    s.color = linear_ && !painted_ ? linear_->at(i) : unpacked_levels(attr_[i], 8, config_.channels);
+  if (linear_) s.served = linear_->served(i);
+  if (!clear && !linear_) s.normal_class = class_.empty() ? (attr_[i] & kLit) / kLit : class_[i];
   s.dsf = dsf_[i] & dsf_mask_;
   s.fsf = fsf_[i];
   for (std::size_t light = 0; light < counts_.size(); ++light) s.counts[light] = counts_[light][i];
@@ -206,6 +256,7 @@ PixelState PixelLine::state(int x) const {
 void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
   const std::int32_t clear = clear_depth(config_);
   const auto width = static_cast<std::size_t>(width_);
+  if (linear_ && !painted_ && !blank) show(background_);
   if (blank) std::fill_n(attr_.begin(), width, background_);
   // Painted pixels have the background's colour already where they need it; no depth is below 0.
   line_bytes(width_, zb_.data(), attr_.data(), painted_ || blank ? -1 : clear, background_, config_.channels,
@@ -213,6 +264,7 @@ void PixelLine::finish(bool blank, std::span<std::uint8_t> out) {
   std::fill_n(zb_.begin(), width, clear);
   clear_flags();
   if (any_count_) clear_counts();
+  if (linear_) linear_->clear();
   bias_ = 0;
   painted_ = false;
 }

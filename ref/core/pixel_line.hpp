@@ -5,10 +5,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "core/expansion_unit.hpp"
+#include "core/linear_light.hpp"
 #include "core/span_kernels.hpp"
 #include "kage/core.hpp"
 #include "kage/token.hpp"
@@ -24,17 +26,20 @@ class PixelLine {
   void set_shade(std::uint32_t shade) { shade_ = shade; }
   void add_share(const TableToken& entry) { shares_.push_back(entry.share); }  ///< the table's next entry
 
-  void tree(const TreeLine& line);     ///< as OP over the whole line
-  void op(const SpanToken& s);         ///< where Z < ZB: Z, colour and class are written
+  void tree(const TreeLine& line);  ///< as OP over the whole line
+  /// Where Z < ZB: Z, colour and class are written. Behind a RESOLVE of linear light, where Z <= ZB: a light is added.
+  void op(const SpanToken& s);
   void sp(const SpanToken& s);         ///< where Z < ZB: DSF += w
   void nc(int xl, int xr, int w);      ///< DSF += w
   void inside(int w);                  ///< IF: bias += w
   void ev(int xl, int xr);             ///< FSF |= DSF + bias != 0; DSF = 0; bias = 0
   void es(int xl, int xr, int light);  ///< count[light] += FSF; FSF = 0; bias = 0
-  void resolve();                      ///< darken what is lit and in shadow; DSF = FSF = counts = bias = 0
-  void tp(const SpanToken& s);         ///< where Z < ZB: colour is blended
+  /// Darken what is lit and in shadow; DSF = FSF = counts = bias = 0. With linear light: a light's spans follow.
+  void resolve(int samples = 0);
+  void tp(const SpanToken& s);  ///< where Z < ZB: colour is blended
 
   [[nodiscard]] PixelState state(int x) const;
+  [[nodiscard]] const Config& config() const { return config_; }
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] std::uint32_t bias() const { return bias_ & dsf_mask_; }
   [[nodiscard]] std::uint32_t background() const { return background_; }
@@ -45,6 +50,9 @@ class PixelLine {
 
  private:
   [[nodiscard]] std::uint32_t factor(std::size_t x, std::size_t channel) const;
+  [[nodiscard]] bool in_shadow(std::size_t x, std::uint32_t bias) const;
+  void light(const SpanToken& s);
+  void show(std::uint32_t background);
   void resolve_flags();
   void resolve_counts();
   void clear_flags();
@@ -69,6 +77,7 @@ class PixelLine {
   std::vector<std::uint32_t> dsf_;
   std::vector<std::uint32_t> fsf_;
   std::vector<std::vector<std::uint32_t>> counts_;  // of each light, with COUNT_BITS only
+  std::optional<LinearLight> linear_;               // in place of attr_'s colours, until the line is shown
 };
 
 }  // namespace kage

@@ -72,6 +72,20 @@ const std::array<CellTerm, kFrontEndTerms> kFrontEndTermInfo{{
     {"gradients_bits", [](const Config& c) { return whole(derived::gradients_bits(c)); }},
 }};
 
+// The display's curve, and the bits of colours in the lanes, with the products of counts.
+const std::array<CellTerm, kLinearTerms> kLinearTermInfo{{
+    {"channels", [](const Config& c) { return whole(c.channels); }},
+    {"lanes_level_bits",
+     [](const Config& c) {
+       return whole(lanes_of(c) * c.channels * (derived::lane_level_bits(c) + derived::pixel_level_bits(c) - 16));
+     }},
+}};
+
+Config without_linear(Config config) {
+  config.linear_bits = 0;
+  return config;
+}
+
 namespace {
 
 template <std::size_t N>
@@ -89,7 +103,8 @@ const CellFit<kCellTerms>& fit_of(const Config& config) { return banked(config) 
 
 Cells estimated_cells(const Config& config) {
   Cells cells;
-  add(cells, config, kCellTermInfo, fit_of(config));
+  add(cells, without_linear(config), kCellTermInfo, fit_of(config));
+  if (config.linear_bits > 0) add(cells, config, kLinearTermInfo, kLinearFit);
   if (config.active > 0) add(cells, config, kFrontEndTermInfo, kFrontEndFit);
   cells.bits_per_pixel = derived::pixel_bits(config);
   const auto bits = [&cells](auto words, auto width) {
@@ -103,7 +118,7 @@ Cells estimated_cells(const Config& config) {
   if (config.units > 0) {
     bits(2 * config.units * derived::most_segments(config), segment_bits(config));
     bits(config.units * (2 << config.face_bits), derived::entry_bits(config));
-    bits(groups, lanes * (config.z_bits + derived::rgb_bits(config) + derived::class_field_bits(config)));
+    bits(groups, lanes * (config.z_bits + derived::pixel_rgb_bits(config) + derived::class_field_bits(config)));
   }
   if (config.active > 0)  // two banks, each a power of two
     bits(2 * std::max(2U, std::bit_ceil(static_cast<unsigned>(config.active))), derived::active_bits(config));
@@ -116,6 +131,10 @@ CellSpread cell_spread(const Config& config) {
   if (config.active > 0) {
     spread.luts = std::max(spread.luts, kFrontEndFit.luts_spread);
     spread.flip_flops = std::max(spread.flip_flops, kFrontEndFit.flip_flops_spread);
+  }
+  if (config.linear_bits > 0) {
+    spread.luts = std::max(spread.luts, kLinearFit.luts_spread);
+    spread.flip_flops = std::max(spread.flip_flops, kLinearFit.flip_flops_spread);
   }
   return spread;
 }

@@ -33,14 +33,20 @@ struct CellSpread {
 };
 CellSpread cell_spread(const Config& config);
 
-/// A term of a fit's sum. The core behind the front end has one fit; the front end, where there is one, has another.
+/// A term of a fit's sum. The core behind the front end has one fit, for colours that RESOLVE darkens. The front end,
+/// and what light after light takes beyond that, have others, where there are such.
 struct CellTerm {
   std::string_view name;
   double (*value)(const Config&);
 };
 inline constexpr std::size_t kCellTerms = 17;
 inline constexpr std::size_t kFrontEndTerms = 4;
+inline constexpr std::size_t kLinearTerms = 2;
 extern const std::array<CellTerm, kCellTerms> kCellTermInfo;
 extern const std::array<CellTerm, kFrontEndTerms> kFrontEndTermInfo;
+extern const std::array<CellTerm, kLinearTerms> kLinearTermInfo;
+
+/// The core of whose cells those of kLinearTermInfo are more: the same without light after light.
+Config without_linear(Config config);
 
 }  // namespace kage

@@ -40,7 +40,7 @@ void PhaseCounter::token(const Token& t) {
     // docs/rtl.md, "Clocks": a line whose colours come back before its TPs.
     constexpr std::uint64_t kColorsBack = 32;
     waits_ = groups(0, width_);
-    if (config_.count_bits > 0 && resolved_)
+    if (config_.linear_bits > 0 || (config_.count_bits > 0 && resolved_))
       waits_ += width + std::max(width, config_.arrangement == 0 ? width : 2 * groups(0, width_)) + kColorsBack;
   }
   ++sum.tokens;

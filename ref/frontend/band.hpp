@@ -104,7 +104,7 @@ class Band {
       words_.insert(words_.end(), line.opaque.begin(), line.opaque.end());
       words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
       writer_.write_to(words_);
-      if (!line.shadow.empty() && layout_ == nullptr) writer_.resolve();
+      if (!line.shadow.empty() && layout_ == nullptr && g_->passes.empty()) writer_.resolve();
       words_.insert(words_.end(), line.translucent.begin(), line.translucent.end());
       writer_.eol(y);
     }
@@ -222,7 +222,7 @@ class Band {
           at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
           return;
         }
-        spans_.painted(p, y, s, [&](const SpanToken& part) {
+        spans_.painted(p, y, s, 0, [&](const SpanToken& part) {
           before_span(at(y), i, role);
           writer_.op(part);
           if (keeps_origins_) at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
@@ -255,7 +255,7 @@ class Band {
           for (const FragmentCut& cut : cuts) restrict_to(g_->cut_lines[cut.line], cut.front, y, xl, xr);
           if (xl >= xr) return;
           s.alpha = p.alpha;
-          spans_.painted(p, y, s, [&](SpanToken part) {
+          spans_.painted(p, y, s, 0, [&](SpanToken part) {
             const int from = std::max(part.xl, xl);
             const int to = std::min(part.xr, xr);
             if (from >= to) return;
@@ -277,18 +277,39 @@ class Band {
     std::size_t face = 0;
     std::size_t edge = 0;
     std::uint32_t sample = 0;
+    std::size_t pass = 0;  // of lights that have come
     while (face < faces.size() || edge < edges.size()) {
       std::uint32_t v = ~0U;
       if (face < faces.size()) v = f_->volume_of_face[faces[face]];
       if (edge < edges.size()) v = std::min(v, f_->volume_of_edge[edges[edge]]);
       if (g_->volumes[v].sample != sample) close_sample(sample);
       sample = g_->volumes[v].sample;
+      for (; !g_->passes.empty() && pass < g_->sample_light[sample]; ++pass) light(pass);
       for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face) volume_face(faces[face], v);
       for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge)
         near_edge(g_->near_edges[edges[edge]]);
       close_volume(v);
     }
     close_sample(sample);
+    for (; pass < g_->passes.size(); ++pass) light(pass);
+  }
+
+  /// The opaque spans once more, with a light's colours, those of units too: behind its volumes.
+  void light(std::size_t pass) {
+    for (int y = y0_; y < y1_; ++y) {
+      Line& line = at(y);
+      if (line.opaque.empty() && line.shadow.empty() && !f_->tree.any()) continue;
+      writer_.write_to(line.shadow);
+      writer_.resolve(f_->config->count_bits > 0 ? g_->passes[pass] : 0);
+    }
+    for (const std::uint32_t i : work_.polygons)
+      spans_.each(g_->polygons[i], y0_, y1_, [&](int y, SpanToken& s, int) {
+        spans_.painted(g_->polygons[i], y, s, 1 + pass, [&](const SpanToken& part) {
+          writer_.write_to(at(y).shadow);
+          writer_.op(part);
+          if (keeps_origins_) at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
+        });
+      });
   }
 
   void volume_face(std::uint32_t number, std::uint32_t volume) {
@@ -348,7 +369,7 @@ class Band {
       Line& line = at(y);
       if (line.sample.none()) continue;
       writer_.write_to(line.shadow);
-      writer_.es(line.sample.from, line.sample.to, g_->sample_light[sample]);
+      writer_.es(line.sample.from, line.sample.to, g_->passes.empty() ? g_->sample_light[sample] : 0);
       line.sample = {};
     }
   }

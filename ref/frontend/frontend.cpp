@@ -77,7 +77,7 @@ void check_guard(const FrameGeometry& g) {
 void check_volumes(const FrameGeometry& g, const Config& config) {
   if (config.dsf_bits == 0) return;
   for (std::size_t i = 1; i < g.volumes.size(); ++i) {
-    if (config.count_bits == 0 && g.volumes[i].sample != g.volumes[0].sample)
+    if (config.count_bits == 0 && g.passes.empty() && g.volumes[i].sample != g.volumes[0].sample)
       throw Error("several light samples need COUNT_BITS, which the configuration lacks");
     if (config.fsf == 0 && g.volumes[i].sample == g.volumes[i - 1].sample)
       throw Error("several shadow volumes need FSF, which the configuration lacks");
@@ -110,7 +110,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   check_fits(g, config);
   if (options.level == Level::polygons && config.active == 0)
     throw Error("the polygon level needs ACTIVE, which the configuration lacks");
-  const bool polygons = options.level == Level::polygons && PolygonLayout::fits(g);
+  const bool polygons = options.level == Level::polygons && PolygonLayout::fits(g) && g.passes.empty();
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
   FrameHeader header{g.width, g.height, g.background, number};
@@ -118,7 +118,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   writer.header(header);
   if (derived::has_table(config))
     write_table(g, config, writer);
-  else if (config.dsf_bits > 0 && !g.volumes.empty())
+  else if (config.dsf_bits > 0 && g.passes.empty() && !g.volumes.empty())
     writer.shade(g.shade);
   FramePlan frame = prepare(g, config);
   Arena arena(options.threads);

@@ -27,7 +27,9 @@ class PolygonSpans {
       : g_(&geometry),
         config_(&config),
         depth_(SpanSetup::depth(config)),
-        color_(config.color_frac, derived::smooth_bits(config)) {}
+        color_(SpanSetup::color(config, 8)),
+        ambient_(SpanSetup::color(config, derived::pixel_level_bits(config))),
+        light_(SpanSetup::color(config, derived::lane_level_bits(config))) {}
 
   /// Call emit(y, span, winding) for every span of the polygon on the lines [y0, y1), with range and depth; what a
   /// drawn polygon and a cap emit is the same.
@@ -46,10 +48,16 @@ class PolygonSpans {
   }
 
   /// Call emit(span) for the parts of a span of the polygon on line y, from left to right, each with its colour and
-  /// class: one, or those of the shades of a diced polygon. Depth is that of the whole span, bit for bit.
+  /// class: one, or those of the shades of a diced polygon. Depth is that of the whole span, bit for bit. With linear
+  /// light `pass` is 0 for that from everywhere, or 1 and on for a light's.
   template <class Emit>
-  void painted(const ScreenPolygon& p, int y, SpanToken& s, Emit emit) const {
-    if (p.shade_cut >= 0 && config_->smooth != 0) return diced(p, y, p.shade_cut, s, emit);
+  void painted(const ScreenPolygon& p, int y, SpanToken& s, std::size_t pass, Emit emit) const {
+    if (p.shade_cut >= 0 && config_->smooth != 0) return diced(p, y, p.shade_cut, s, pass, emit);
+    if (p.light_planes >= 0) {
+      for (std::size_t c = 0; c < channels(); ++c)
+        ramp(pass == 0 ? ambient_ : light_, plane(static_cast<std::uint32_t>(p.light_planes), pass, c), c, y, s);
+      return emit(s);
+    }
     s.normal_class = span_class(p, *config_);
     paint(p, y, s);
     emit(s);
@@ -59,7 +67,7 @@ class PolygonSpans {
   void paint(const ScreenPolygon& p, int y, SpanToken& s) const {
     for (std::size_t c = 0; c < channels(); ++c) {
       s.color[c] = p.color[c];
-      if (config_->smooth != 0) ramp(color_plane(*g_, p, c), c, y, s);
+      if (config_->smooth != 0) ramp(color_, color_plane(*g_, p, c), c, y, s);
     }
   }
 
@@ -73,21 +81,26 @@ class PolygonSpans {
  private:
   [[nodiscard]] std::size_t channels() const { return static_cast<std::size_t>(config_->channels); }
 
-  void ramp(const ScreenPlane& plane, std::size_t channel, int y, SpanToken& s) const {
-    const SpanSetup::Ramp r = color_.at(plane, s.xl, y, s.xr - s.xl);
+  [[nodiscard]] const ScreenPlane& plane(std::uint32_t first, std::size_t pass, std::size_t channel) const {
+    return g_->color_planes[first + 3 * pass + channel];
+  }
+
+  void ramp(const SpanSetup& setup, const ScreenPlane& plane, std::size_t channel, int y, SpanToken& s) const {
+    const SpanSetup::Ramp r = setup.at(plane, s.xl, y, s.xr - s.xl);
     s.color[channel] = static_cast<std::int32_t>(r.start);
     s.dcolor[channel] = static_cast<std::int32_t>(r.step);
   }
 
   // The part of a span on this side of all cuts above `at`.
   template <class Emit>
-  void diced(const ScreenPolygon& p, int y, std::int32_t at, const SpanToken& s, Emit emit) const {
+  void diced(const ScreenPolygon& p, int y, std::int32_t at, const SpanToken& s, std::size_t pass, Emit emit) const {
     if (at < 0) {
       const std::int32_t number = ~at;
       const Shade& shade = g_->shades[static_cast<std::size_t>(number)];
       SpanToken part = s;
       part.normal_class = derived::has_table(*config_) ? static_cast<int>(shade.normal_class) : span_class(p, *config_);
-      for (std::size_t c = 0; c < channels(); ++c) ramp(g_->color_planes[shade.color_planes + c], c, y, part);
+      const SpanSetup& setup = p.light_planes < 0 ? color_ : pass == 0 ? ambient_ : light_;
+      for (std::size_t c = 0; c < channels(); ++c) ramp(setup, plane(shade.color_planes, pass, c), c, y, part);
       return emit(part);
     }
     const ShadeCut& cut = g_->shade_cuts[static_cast<std::size_t>(at)];
@@ -95,7 +108,7 @@ class PolygonSpans {
       if (from >= end) return;
       SpanToken part = s;
       restrict(part, from, end);
-      diced(p, y, next, part, emit);
+      diced(p, y, next, part, pass, emit);
     };
     int xl = s.xl;
     int xr = s.xr;
@@ -112,7 +125,9 @@ class PolygonSpans {
   const FrameGeometry* g_;
   const Config* config_;
   SpanSetup depth_;
-  SpanSetup color_;
+  SpanSetup color_;    // as displayed
+  SpanSetup ambient_;  // linear light from everywhere
+  SpanSetup light_;    // a sample's
   Scanner scanner_;
 };
 

@@ -26,15 +26,19 @@ inline Int128 value_at(const ScreenPlane& p, int x, int y) {
 /// Rounds planes into the fields of a span.
 class SpanSetup {
  public:
-  /// `frac` fraction bits in an accumulator of `bits` bits.
-  SpanSetup(int frac, int bits)
+  /// `frac` fraction bits in an accumulator of `bits` bits, of which a pixel leaves out so many.
+  SpanSetup(int frac, int bits, int left_out)
       : shift_(kPlaneFrac - frac),
         limit_(std::int64_t{1} << (bits - 1)),
-        half_(frac > 0 ? std::int64_t{1} << (frac - 1) : 0),
+        half_(left_out > 0 ? std::int64_t{1} << (left_out - 1) : 0),
         round_half_(shift_ > 0 ? std::int64_t{1} << (shift_ - 1) : 0) {}
 
   /// For the depth of spans and segments.
-  static SpanSetup depth(const Config& config) { return {config.z_frac, derived::depth_bits(config)}; }
+  static SpanSetup depth(const Config& config) { return {config.z_frac, derived::depth_bits(config), config.z_frac}; }
+  /// For the colour of spans, of which a pixel takes so many bits a channel.
+  static SpanSetup color(const Config& config, int level_bits) {
+    return {config.color_frac, derived::smooth_bits(config), config.color_frac + 8 - level_bits};
+  }
 
   struct Ramp {
     std::int64_t start;

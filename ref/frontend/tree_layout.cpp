@@ -81,10 +81,19 @@ void TreeLayout::faces(TokenWriter& writer) const {
         t.index = static_cast<int>(m.polyhedron);
         t.normal_class = span_class(polygon, *config_);
         t.dz = setup.step(polygon.depth);
-        for (std::size_t c = 0; c < 3; ++c) t.color[c] = polygon.color[c];
+        for (std::size_t c = 0; c < 3; ++c)
+          t.color[c] = polygon.light_planes < 0 ? polygon.color[c] : light(polygon, c);
         writer.face(t);
       }
     }
+}
+
+// A channel of the light from everywhere, which is the same all over the polygon, as a pixel holds it of a span.
+std::int32_t TreeLayout::light(const ScreenPolygon& polygon, std::size_t channel) const {
+  const int bits = derived::pixel_level_bits(*config_);
+  const ScreenPlane& plane = g_->color_planes[static_cast<std::size_t>(polygon.light_planes) + channel];
+  const std::int64_t start = SpanSetup::color(*config_, bits).at(plane, plane.x0, plane.y0, 1).start;
+  return static_cast<std::int32_t>(std::min(start >> (config_->color_frac + 8 - bits), (std::int64_t{1} << bits) - 1));
 }
 
 std::vector<LineRange> TreeLayout::edge_lines() const {

@@ -39,6 +39,7 @@ class TreeLayout {
   [[nodiscard]] PolyhedraReport report() const;
 
  private:
+  [[nodiscard]] std::int32_t light(const ScreenPolygon& polygon, std::size_t channel) const;
   struct Member {
     std::uint32_t polyhedron;
     int first_face;  // in its unit's table

@@ -21,14 +21,20 @@ constexpr int kPlaces = 8;
 // An edge is longer than another by more than rounding: so a scene is diced alike in any unit of length.
 constexpr double kLonger = 1 + 0x1p-20;
 
+// A sample's light is no brighter at a corner, in 1/256 of white.
+constexpr double kMostLight = 500;
+
 // No frame has more shades: it would be noise.
 constexpr std::size_t kMostShades = std::size_t{1} << 20;
 
 }  // namespace
 
 std::uint32_t Dicer::add(const FaceShading::Shaded& face, const ClipPoint& p) {
-  Corner& c = corners_.emplace_back(Corner{p.sx / p.q, p.sy / p.q, p, std::nullopt});
-  c.clip.color = shading_->color_at(face, view_->place(p));
+  Corner& c = corners_.emplace_back(Corner{p.sx / p.q, p.sy / p.q, p, std::nullopt, {}});
+  if (face.linear)
+    c.light = shading_->light_at(face, view_->place(p));
+  else
+    c.clip.color = shading_->color_at(face, view_->place(p));
   return static_cast<std::uint32_t>(corners_.size() - 1);
 }
 
@@ -85,6 +91,23 @@ std::optional<Dicer::Window> Dicer::window(const Corners& t) const {
   return in;
 }
 
+// Whether colour between the corners is too far from light at a point that has these parts of them.
+bool Dicer::is_off(const FaceShading::Shaded& face, const Corners& t, const glm::dvec3& part,
+                   const ClipPoint& p) const {
+  const Corner& a = at(t[0]);
+  const Corner& b = at(t[1]);
+  const Corner& c = at(t[2]);
+  if (face.linear) {
+    FaceShading::Light between = a.light;
+    for (std::size_t i = 0; i < between.size(); ++i)
+      between[i] = a.light[i] * part[0] + b.light[i] * part[1] + c.light[i] * part[2];
+    return shading_->difference(face, between, shading_->light_at(face, view_->place(p))) > max_shading_;
+  }
+  const glm::dvec3 linear = a.clip.color * part[0] + b.clip.color * part[1] + c.clip.color * part[2];
+  const glm::dvec3 d = glm::abs(shading_->color_at(face, view_->place(p)) - linear);
+  return std::max({d.x, d.y, d.z}) > max_shading_;
+}
+
 // Whether colour between the corners is too far from light somewhere in the picture.
 bool Dicer::off(const FaceShading::Shaded& face, const Corners& t, const Window& in) const {
   const Corner& a = at(t[0]);
@@ -97,9 +120,7 @@ bool Dicer::off(const FaceShading::Shaded& face, const Corners& t, const Window&
     const double x = p.sx / p.q;
     const double y = p.sy / p.q;
     if (!(x >= in.x0 && x <= in.x1 && y >= in.y0 && y <= in.y1)) return false;
-    const glm::dvec3 linear = a.clip.color * part[0] + b.clip.color * part[1] + c.clip.color * part[2];
-    const glm::dvec3 d = glm::abs(shading_->color_at(face, view_->place(p)) - linear);
-    return std::max({d.x, d.y, d.z}) > max_shading_;
+    return this->is_off(face, t, part, p);
   };
   constexpr double kThird = 1.0 / 3;
   for (const glm::dvec3& part :
@@ -138,7 +159,38 @@ bool Dicer::needs_cut(const FaceShading::Shaded& face, const Corners& t) {
   return off(face, t, *in) || (face.normal_class > 0 && is_large(t) && part_of(face, t).error > max_shading_);
 }
 
+// A span's colour has two bits above white, so that a light that is brighter in the middle of a part still comes out
+// right beside it.
+std::uint32_t Dicer::add_light(const Corners& t) {
+  const auto first = static_cast<std::uint32_t>(out_->color_planes.size());
+  for (std::size_t i = 0; i < at(t[0]).light.size(); ++i) {
+    triangle_.clear();
+    for (const std::uint32_t k : t) {
+      triangle_.push_back(at(k).clip);
+      triangle_.back().color = glm::min(at(k).light[i], glm::dvec3(kMostLight));
+    }
+    for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_->color_plane(triangle_, c));
+  }
+  return first;
+}
+
+std::uint32_t Dicer::add_light(const FaceShading::Shaded& face, std::span<const ClipPoint, 3> triangle) {
+  return add_light(begin(face, triangle));
+}
+
+std::uint32_t Dicer::add_light(const FaceShading::Light& light) {
+  const auto first = static_cast<std::uint32_t>(out_->color_planes.size());
+  for (const glm::dvec3& one : light)
+    for (int c = 0; c < 3; ++c)
+      out_->color_planes.push_back({0, 0, to_fixed(std::min(one[c], kMostLight), kPlaneFrac), 0, 0});
+  return first;
+}
+
 std::int32_t Dicer::shade(const FaceShading::Shaded& face, const Corners& t) {
+  if (face.linear) {
+    out_->shades.push_back({add_light(t), 0});
+    return ~static_cast<std::int32_t>(out_->shades.size() - 1);
+  }
   const FaceShading::Part part = part_of(face, t);
   triangle_.clear();
   for (const std::uint32_t i : t) {
@@ -190,7 +242,7 @@ bool Dicer::may_cut(const FaceShading::Shaded& face, std::span<const ClipPoint, 
 bool Dicer::differs(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle) {
   if (!may_cut(face, triangle)) return false;
   const Corners t = begin(face, triangle);
-  return needs_cut(face, t) || (is_large(t) && part_of(face, t).normal_class != face.normal_class);
+  return needs_cut(face, t) || (!face.linear && is_large(t) && part_of(face, t).normal_class != face.normal_class);
 }
 
 std::int32_t Dicer::dice(const FaceShading::Shaded& face, std::span<ClipPoint, 3> triangle,
@@ -198,7 +250,7 @@ std::int32_t Dicer::dice(const FaceShading::Shaded& face, std::span<ClipPoint, 3
   if (!may_cut(face, triangle)) return -1;
   const Corners t = begin(face, triangle);
   if (needs_cut(face, t)) return cut(face, t);
-  if (!is_large(t)) return -1;
+  if (face.linear || !is_large(t)) return -1;
   const FaceShading::Part part = part_of(face, t);
   if (part.normal_class == face.normal_class) return -1;
   normal_class = part.normal_class;

@@ -27,6 +27,11 @@ class Dicer {
   /// @return ScreenPolygon::shade_cut: the first cut, or -1
   std::int32_t dice(const FaceShading::Shaded& face, std::span<ClipPoint, 3> triangle, std::uint32_t& normal_class);
 
+  /// The planes of a triangle's linear light: ScreenPolygon::light_planes.
+  std::uint32_t add_light(const FaceShading::Shaded& face, std::span<const ClipPoint, 3> triangle);
+  /// The same of a triangle that has one light all over.
+  std::uint32_t add_light(const FaceShading::Light& light);
+
   /// Whether a triangle is not what the face is all over: dice() would cut it, or give it another class.
   [[nodiscard]] bool differs(const FaceShading::Shaded& face, const std::array<ClipPoint, 3>& triangle);
 
@@ -37,6 +42,7 @@ class Dicer {
     double y;
     ClipPoint clip;
     std::optional<FaceShading::Place> place;  // once it is asked for
+    FaceShading::Light light;                 // of a face with linear light
   };
   using Corners = std::array<std::uint32_t, 3>;  // into corners_
 
@@ -61,6 +67,9 @@ class Dicer {
   };
   [[nodiscard]] std::optional<Window> window(const Corners& t) const;
   [[nodiscard]] bool off(const FaceShading::Shaded& face, const Corners& t, const Window& in) const;
+  [[nodiscard]] bool is_off(const FaceShading::Shaded& face, const Corners& t, const glm::dvec3& part,
+                            const ClipPoint& p) const;
+  std::uint32_t add_light(const Corners& t);
   [[nodiscard]] bool is_large(const Corners& t) const;
   [[nodiscard]] bool needs_cut(const FaceShading::Shaded& face, const Corners& t);
   [[nodiscard]] FaceShading::Part part_of(const FaceShading::Shaded& face, const Corners& t);

@@ -72,7 +72,11 @@ void FaceDrawer::draw(std::uint32_t index) {
   base.depth = depth_plane(corners, t, whole);
   for (std::size_t c = 0; c < 3; ++c)
     base.color[c] = static_cast<std::uint8_t>(to_fixed(std::clamp(shaded.mean[static_cast<int>(c)], 0.0, 255.0), 0));
-  if (config_->smooth != 0 && !(shaded.same_color && is_linear(shaded)))
+  const bool alike = (shaded.linear ? has_one_light(shaded) : shaded.same_color) && is_linear(shaded);
+  if (shaded.linear && alike && diced_)
+    base.light_planes =
+        static_cast<std::int32_t>(dicer_.add_light(shading_->light_at(shaded, shaded.surface.corner(0).point)));
+  if (config_->smooth != 0 && !alike)
     add_fan(base, shaded);
   else if (whole)
     faces_.add(base, snapped_);
@@ -85,6 +89,15 @@ void FaceDrawer::undo(std::uint32_t index) {
   out_->vertices.resize(out_->polygons.back().first_vertex);
   out_->polygons.pop_back();
   drawn_[index].count = 0;
+}
+
+// Whether all corners of a face have the same linear light.
+bool FaceDrawer::has_one_light(const FaceShading::Shaded& shaded) const {
+  if (!shaded.varies) return true;
+  const FaceShading::Light first = shading_->light_at(shaded, shaded.surface.corner(0).point);
+  for (std::size_t i = 1; i < shaded.surface.corners(); ++i)
+    if (shading_->light_at(shaded, shaded.surface.corner(i).point) != first) return false;
+  return true;
 }
 
 // Whether one colour serves all of a face whose corners have one.
@@ -107,7 +120,10 @@ void FaceDrawer::add_fan(const ScreenPolygon& base, const FaceShading::Shaded& s
     std::vector<ClipPoint> triangle{polygon_[apex], polygon_[(apex + i) % n], polygon_[(apex + i + 1) % n]};
     if (!whole && diced_) piece.shade_cut = dicer_.dice(shaded, std::span<ClipPoint, 3>(triangle), piece.normal_class);
     piece.color_planes = static_cast<std::int32_t>(out_->color_planes.size());
-    for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_.color_plane(triangle, c));
+    if (shaded.linear)
+      piece.light_planes = static_cast<std::int32_t>(dicer_.add_light(shaded, std::span<ClipPoint, 3>(triangle)));
+    else
+      for (int c = 0; c < 3; ++c) out_->color_planes.push_back(faces_.color_plane(triangle, c));
     if (whole)
       faces_.add(piece, snapped_);
     else

@@ -52,6 +52,7 @@ class FaceDrawer {
 
  private:
   void add_fan(const ScreenPolygon& base, const FaceShading::Shaded& shaded);
+  [[nodiscard]] bool has_one_light(const FaceShading::Shaded& shaded) const;
   [[nodiscard]] bool is_linear(const FaceShading::Shaded& shaded);
   [[nodiscard]] ScreenPlane depth_plane(std::span<const std::uint32_t> corners, const Triangle& t, bool whole) const;
 

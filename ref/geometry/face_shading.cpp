@@ -26,6 +26,52 @@ glm::dvec3 FaceShading::color_at(const Shaded& face, const glm::dvec3& place) co
   return color_of(face, face.surface.at(place));
 }
 
+namespace {
+
+constexpr double kWhiteLight = 256;
+
+}  // namespace
+
+FaceShading::Light FaceShading::light_at(const Shaded& face, const glm::dvec3& place) const {
+  const SurfacePoint at = face.surface.at(place);
+  Light light(1 + lighting_->lights(), glm::dvec3(0));
+  if (face.unlit) {
+    light[0] = kWhiteLight * lighting_->shown_of(at.base, glm::dvec3(1));
+    return light;
+  }
+  std::array<glm::dvec3, kMaxLights> arrive;
+  const std::span<glm::dvec3> of_lights = std::span(arrive).first(lighting_->lights());
+  const glm::dvec3 towards_eye = face.facing < 0 ? -at.normal : at.normal;
+  lighting_->arriving(at.point, towards_eye, face.side.sides, face.side.eye_side, of_lights);
+  light[0] = kWhiteLight * lighting_->shown_of_ambient(towards_eye, at.base);
+  for (std::size_t l = 0; l < of_lights.size(); ++l)
+    if (face.before[l] > 0) light[1 + l] = kWhiteLight / face.before[l] * lighting_->shown_of(at.base, of_lights[l]);
+  return light;
+}
+
+double FaceShading::difference(const Shaded& face, const Light& a, const Light& b) const {
+  double most = 0;
+  const auto compare = [&](double x, double y) {
+    most = std::max(most, 255 * std::abs(srgb_encode(x / kWhiteLight) - srgb_encode(y / kWhiteLight)));
+  };
+  // A span's colour is at most white at a pixel.
+  const auto of = [&](const Light& light, std::size_t l, int c) {
+    return std::min(light[1 + l][c], kWhiteLight) * face.before[l];
+  };
+  for (int c = 0; c < 3; ++c) {
+    double all_a = a[0][c];
+    double all_b = b[0][c];
+    compare(all_a, all_b);
+    for (std::size_t l = 0; l < face.before.size(); ++l) {
+      compare(a[0][c] + of(a, l, c), b[0][c] + of(b, l, c));
+      all_a += of(a, l, c);
+      all_b += of(b, l, c);
+    }
+    compare(all_a, all_b);
+  }
+  return most;
+}
+
 FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint> corners) const {
   const Triangle& t = frame_->triangles[frame_->polygons[index].triangle];
   const double facing = facing_of(*frame_, t, normal_of(*frame_, t));
@@ -42,9 +88,15 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
            0,
            {1, 1, 1},
            {0, 0, 0},
+           false,
+           {},
            false};
+  s.linear = derived::has_passes(*config_) && (t.alpha == 255 || config_->translucency == 0);
+  if (s.linear)
+    for (std::size_t l = 0; l < lighting_->lights(); ++l)
+      s.before.push_back(table_->shadows_itself(s.side) ? s.side.count(*lights_, l, 1) : lights_->points_of(l));
   s.lit = !t.unlit && s.side.takes_shadow(*lights_);
-  s.classed = s.lit && (t.alpha == 255 || config_->translucency == 0);
+  s.classed = s.lit && !derived::has_passes(*config_) && (t.alpha == 255 || config_->translucency == 0);
   if (s.classed) {
     const std::uint32_t number = table_->number(s.side);
     s.lit = number > 0;

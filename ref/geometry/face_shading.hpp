@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "geometry/light_table.hpp"
 #include "geometry/sampled_lights.hpp"
@@ -36,6 +37,10 @@ class FaceShading {
     glm::dvec3 factor;           ///< of color_at(), for its own shadow
     glm::dvec3 mean;             ///< of the corners' colours
     bool same_color;             ///< at all of them
+    /// With linear light, of an opaque face: of each light its samples before the face, or, where the face's own volume
+    /// counts none of them, all. Else empty.
+    std::vector<int> before;
+    bool linear = false;  ///< it has light in place of colours
   };
 
   /// Gives `corners`, those of polygon `index` in its order, their colours before RESOLVE: what the points of lights
@@ -45,6 +50,14 @@ class FaceShading {
 
   /// The colour of a place of the face, before its own shadow.
   [[nodiscard]] glm::dvec3 color_at(const Shaded& face, const glm::dvec3& place) const;
+
+  /// The linear light of a place: that from everywhere, then what comes of one sample of each light, in 1/256 of white.
+  using Light = std::vector<glm::dvec3>;
+  [[nodiscard]] Light light_at(const Shaded& face, const glm::dvec3& place) const;
+
+  /// How far two such are apart as displayed, in steps of 255: the most over channels, with all lights, with none, and
+  /// with each alone.
+  [[nodiscard]] double difference(const Shaded& face, const Light& a, const Light& b) const;
 
   /// A place of the face that has a class of the table: its colour, what shadows take from it, and the class that asks
   /// for.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "contract/derived.hpp"
 #include "geometry/check_input.hpp"
 #include "geometry/face_drawer.hpp"
 #include "geometry/face_shading.hpp"
@@ -41,6 +42,8 @@ FrameGeometry empty_geometry(const Task& task, int width, int height, const Samp
   const auto& background = task.look.background;
   out.background = task.config.channels == 1 ? background[1] : packed_color(background);
   out.sample_light = lights.light_of;
+  if (derived::has_passes(task.config))
+    for (std::size_t l = 0; l < task.frame.lights.size(); ++l) out.passes.push_back(lights.points_of(l));
   out.sub_bits = task.look.sub_bits;
   out.polygons.reserve(task.frame.polygons.size());
   out.vertices.reserve(task.frame.corners.size());

@@ -71,6 +71,9 @@ class LightTable {
   /// The same by shares that are not rounded: what chooses a class by it chooses the same whatever SHADE_FRAC is.
   [[nodiscard]] glm::dvec3 about_own_shadow(const FaceSide& side, std::uint32_t number) const;
 
+  /// Whether the shadow volume that a side throws counts the points behind it.
+  [[nodiscard]] bool shadows_itself(const FaceSide& side) const;
+
   /// How far colours in the full shadow of a light are off because a class has one share, in steps of 255. It is the
   /// root mean square over lights, channels, and the area of the sides that casters may keep light from.
   [[nodiscard]] double error() const { return error_; }
@@ -112,7 +115,6 @@ class LightTable {
   [[nodiscard]] glm::dvec3 own_shadow(const FaceSide& side, std::uint32_t number,
                                       const std::vector<double>& shares) const;
   std::vector<bool> limit(const std::vector<Member>& members, const std::vector<std::uint32_t>& of);
-  [[nodiscard]] bool shadows_itself(const FaceSide& side) const;
   void make_one(const WeightedVectors& all, const Look& look);
   void measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area);
 

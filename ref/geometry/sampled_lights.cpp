@@ -22,11 +22,18 @@ std::vector<LightPoint> points_of(const Light& light, std::size_t number, bool c
   return points;
 }
 
+// Light after light has one counter for all.
+std::size_t casting_lights(const SceneFrame& frame, const Config& config) {
+  if (config.dsf_bits == 0) return 0;
+  if (config.linear_bits > 0) return frame.lights.size();
+  return std::min(frame.lights.size(), static_cast<std::size_t>(config.lights));
+}
+
 }  // namespace
 
 SampledLights::SampledLights(const SceneFrame& frame, const Config& config, const Look& look,
                              std::span<const glm::dvec3> near_corners)
-    : casting(config.dsf_bits > 0 ? std::min(frame.lights.size(), static_cast<std::size_t>(config.lights)) : 0) {
+    : casting(casting_lights(frame, config)) {
   for (std::size_t l = 0; l < frame.lights.size(); ++l) {
     first.push_back(static_cast<std::uint32_t>(points.size()));
     const auto own = kage::points_of(frame.lights[l], l, l < casting, config, look);

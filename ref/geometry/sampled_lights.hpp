@@ -12,7 +12,8 @@
 
 namespace kage {
 
-/// All lights shine, the first ones cast shadows: as many as the configuration tells apart, none without shadows. A
+/// All lights shine, the first ones cast shadows: as many as the configuration tells apart, all with linear light, none
+/// without shadows. A
 /// light that casts is its samples, another its middle.
 struct SampledLights {
   /// Throws Error where a light has more samples than COUNT_BITS holds.

@@ -17,8 +17,14 @@ constexpr double kSky = 0.08;
 
 double luminance(const glm::dvec3& c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
 
+glm::dvec3 seen(const glm::dvec3& light, bool grey) { return grey ? glm::dvec3(luminance(light)) : light; }
+
+double ambient(const glm::dvec3& normal, const glm::dvec3& up) {
+  return kAmbient + kSky * 0.5 * (1.0 + glm::dot(normal, up));
+}
+
 glm::dvec3 encoded(const glm::dvec3& light, bool grey) {
-  const glm::dvec3 linear = grey ? glm::dvec3(luminance(light)) : light;
+  const glm::dvec3 linear = seen(light, grey);
   return 255.0 * glm::dvec3(srgb_encode(linear.x), srgb_encode(linear.y), srgb_encode(linear.z));
 }
 
@@ -65,8 +71,15 @@ void Lighting::arriving(const glm::dvec3& point, const glm::dvec3& normal, std::
 }
 
 glm::dvec3 Lighting::displayed(const glm::dvec3& normal, const glm::dvec3& base, const glm::dvec3& light) const {
-  const double ambient = kAmbient + kSky * 0.5 * (1.0 + glm::dot(normal, up_));
-  return encoded(base * (light + ambient), grey_);
+  return encoded(base * (light + ambient(normal, up_)), grey_);
+}
+
+glm::dvec3 Lighting::shown_of_ambient(const glm::dvec3& normal, const glm::dvec3& base) const {
+  return seen(base * ambient(normal, up_), grey_);
+}
+
+glm::dvec3 Lighting::shown_of(const glm::dvec3& base, const glm::dvec3& light) const {
+  return seen(base * light, grey_);
 }
 
 glm::dvec3 Lighting::displayed_unlit(const glm::dvec3& base, bool grey) { return encoded(base, grey); }

@@ -41,6 +41,10 @@ class Lighting {
   /// comes to it. The normal is turned to the eye.
   [[nodiscard]] glm::dvec3 displayed(const glm::dvec3& normal, const glm::dvec3& base, const glm::dvec3& light) const;
 
+  /// The linear light that such a surface shows of ambient light alone, or of light that arrives: 1 is white.
+  [[nodiscard]] glm::dvec3 shown_of_ambient(const glm::dvec3& normal, const glm::dvec3& base) const;
+  [[nodiscard]] glm::dvec3 shown_of(const glm::dvec3& base, const glm::dvec3& light) const;
+
   /// Displayed colour of a surface that shows its base colour whatever light falls on it.
   [[nodiscard]] static glm::dvec3 displayed_unlit(const glm::dvec3& base, bool grey);
 

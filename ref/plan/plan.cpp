@@ -243,6 +243,7 @@ class Planner {
     if (p.member == &Config::lanes && taken.config.arrangement == 0) return "systolic: without effect";
     if (p.member == &Config::lanes || p.member == &Config::beat_words) return pace_reason(p, way, taken);
     if (p.member == &Config::active) return "spans come from the host; --front-end rtl plans a front end";
+    if (p.member == &Config::linear_bits) return "light after light is never asked for";
     return "the paper's segments are never asked for";
   }
 

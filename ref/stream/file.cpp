@@ -36,12 +36,11 @@
 namespace kage {
 namespace {
 
-/// Text of section CONF. It has ACTIVE only for a core with a front end, so that other files have the same bytes as
-/// before there was one.
+/// Text of section CONF. Late parameters are left out where they are 0, so that files have the same bytes as before.
 std::string conf_text(const Config& config) {
   std::string text;
   for (const ParamInfo& p : kParams)
-    if (p.member != &Config::active || config.active > 0) text += fmt::format("{}: {}\n", p.name, config.*(p.member));
+    if (!p.late || config.*(p.member) != 0) text += fmt::format("{}: {}\n", p.name, config.*(p.member));
   return text;
 }
 

@@ -57,6 +57,7 @@ def file_list():
 
 # Where what is made of the template of each name goes.
 OF_TEMPLATES = (
+    "ref/contract/display_curve.hpp",
     "ref/contract/fields.hpp",
     "ref/contract/kinds.hpp",
     "ref/contract/order.hpp",
@@ -67,6 +68,7 @@ OF_TEMPLATES = (
     "ref/include/kage/golden_numbers.h",
     "ref/include/kage/golden_numbers.svh",
     "rtl/include/generated/kage_buses.svh",
+    "rtl/include/generated/kage_curve.svh",
     "rtl/include/generated/kage_order.svh",
     "rtl/kage_axi.v",
     "verif/cosim/report/page/stream.js",

@@ -102,6 +102,7 @@ def param_info(defs):
         "  int min;  ///< the least legal value",
         "  int max;  ///< the greatest",
         "  bool affects_pixels;  ///< else it is of how the hardware is made",
+        "  bool late;  ///< it came later: streams of cores that have 0 of it are as they were before",
         "  std::uint64_t allowed;  ///< bit v set: value v is legal; 0: every value from min to max is",
         "  std::string_view doc;  ///< what it means",
         "};",
@@ -113,7 +114,8 @@ def param_info(defs):
         allowed = sum(1 << v for v in p.get("allowed", []))
         o.append(
             f'    {{"{p["name"]}", &Config::{p["name"].lower()}, {p["default"]}, {p["min"]}, {p["max"]}, '
-            f"{'true' if i < len(defs.pixel) else 'false'}, {allowed:#x}, {quoted(p['doc'])}}},"
+            f"{'true' if i < len(defs.pixel) else 'false'}, {'true' if p.get('late') else 'false'}, {allowed:#x}, "
+            f"{quoted(p['doc'])}}},"
         )
     return [*o, "}};", ""]
 
@@ -148,7 +150,8 @@ def param_hash(fnv):
         "constexpr std::uint32_t param_hash(const Config& c) {",
         f"  std::uint32_t h = {fnv['basis']}u;",
         "  for (const ParamInfo& p : kParams)",
-        f"    if (p.affects_pixels) h = (h ^ static_cast<std::uint32_t>(c.*p.member)) * {fnv['prime']}u;",
+        "    if (p.affects_pixels && !(p.late && c.*p.member == 0))",
+        f"      h = (h ^ static_cast<std::uint32_t>(c.*p.member)) * {fnv['prime']}u;",
         "  return h;",
         "}",
         "",

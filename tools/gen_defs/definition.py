@@ -6,6 +6,7 @@ import re
 import types
 
 import checks
+import curve
 import yaml
 from expressions import camel, cpp_expr, plain, py_expr
 from files import SOURCE
@@ -53,7 +54,7 @@ class Defs:
                     field.setdefault(absent, False)
             for absent in ("span", "touches", "clocks", "text"):
                 token.setdefault(absent, "")
-            for absent in ("with", "without", "sets", "clears", "to"):
+            for absent in ("in_passes", "stays", "with", "without", "sets", "clears", "to"):
                 token["order"].setdefault(absent, [])
         for phase in self.d["order_phases"]:
             for absent in ("also", "needs", "line"):
@@ -63,6 +64,7 @@ class Defs:
         self.d["kinds"] = max(t["kind"] for t in self.d["tokens"]) + 1
         of_kind = {t["kind"]: t for t in self.d["tokens"]}
         self.d["by_kind"] = [of_kind.get(kind) for kind in range(self.d["kinds"])]  # None: no kind
+        self.d |= {"curve": curve.thresholds(), "curve_frac": curve.FRAC}
         self.header_fields = []
         for at, word in enumerate(self.d["header"]):
             word["doc"] = word["doc"].format(**self.d["hash"], **constants)
@@ -134,13 +136,14 @@ class Defs:
         """Tokens of frames at a level, `spans` or `polygons`."""
         return [t for t in self.d["tokens"] if t["level"] in ("", level)]
 
-    def stands_in(self, token, phase):
-        """Whether the token may stand in that phase, marks permitting."""
-        return phase["name"] in token["order"]["in"] or phase["also"] in token["order"]["in"]
+    @staticmethod
+    def stands_in(token, phase, key="in"):
+        """Whether the token may stand in that phase, marks permitting; or another list of phases of its order has it."""
+        return phase["name"] in token["order"][key] or phase["also"] in token["order"][key]
 
-    def order_bits(self, token):
-        """The phases in which it may stand as binary digits, the first phase last."""
-        return "".join("01"[self.stands_in(token, p)] for p in reversed(self.d["order_phases"]))
+    def order_bits(self, token, key="in"):
+        """The phases of such a list as binary digits, the first phase last."""
+        return "".join("01"[self.stands_in(token, p, key)] for p in reversed(self.d["order_phases"]))
 
     def sv_order(self, what):
         """[(value, [KindX, ...]), ...]: for which kinds line_phase's function of this name has which value but its default."""
@@ -159,7 +162,12 @@ class Defs:
             if not of_line:
                 return None
             if what == "order_in":
-                return f"{len(phases)}'b" + "".join("01"[n in of_line] for n in reversed(names))
+
+                def digits(of):
+                    return f"{len(phases)}'b" + "".join("01"[n in of] for n in reversed(names))
+
+                more = digits(of_line + order["in_passes"])
+                return digits(of_line) if more == digits(of_line) else f"LINEAR_BITS > 0 ? {more} : {digits(of_line)}"
             if what == "order_to":
                 if not stays or not order["to"] or of_line == [order["to"]]:
                     return None
@@ -217,7 +225,9 @@ class Defs:
     @staticmethod
     def text_pieces(token):
         """The pieces of a token's text, in order: {form, names, cpp}. Form `text` is plain text; other forms are those of `text`."""
-        pieces, plain = [], token["name"] + (" " if token["text"] else "")
+        pieces, plain = [], token["name"]
+        # These forms bring their space themselves, where they say something.
+        plain += " " if token["text"] and not re.match(r"\{\w+:(class|face|flag|samples)\}", token["text"]) else ""
         members = {f["name"]: "t." + str(f["cpp"]) for f in token["fields"]}
 
         def flush():

@@ -91,7 +91,9 @@ def param_hash(defs):
     params, fnv = defs.pixel, defs.d["hash"]
     o = [f"localparam logic [31:0] ParamHash0 = 32'd{fnv['basis']};"]
     for i, p in enumerate(params):
-        o.append(f"localparam logic [31:0] ParamHash{i + 1} = (ParamHash{i} ^ 32'({p['name']})) * 32'd{fnv['prime']};")
+        skips = f"{p['name']} == 0 ? ParamHash{i} : " if p.get("late") else ""
+        hashed = f"(ParamHash{i} ^ 32'({p['name']})) * 32'd{fnv['prime']}"
+        o.append(f"localparam logic [31:0] ParamHash{i + 1} = {skips}{hashed};")
     return [*o, f"localparam logic [31:0] ParamHash = ParamHash{len(params)};  // what a header must carry", ""]
 
 

@@ -101,7 +101,9 @@ def order(defs):
         names = [p["name"] for p in defs.d["order_phases"]]
         if all(name in t["order"]["in"] for name in names):
             return "everywhere"
-        return ", ".join(p["name"] for p in defs.d["order_phases"] if defs.stands_in(t, p))
+        stands = [p["name"] for p in defs.d["order_phases"] if defs.stands_in(t, p)]
+        more = [p["name"] for p in defs.d["order_phases"] if defs.stands_in(t, p, "in_passes")]
+        return ", ".join(stands) + (f"; with `LINEAR_BITS` {', '.join(more)}" if more else "")
 
     rows = [
         (
@@ -109,7 +111,7 @@ def order(defs):
             phases(t),
             marks(t["order"]["with"]),
             marks(t["order"]["without"]),
-            t["order"]["to"] or "",
+            (t["order"]["to"] or "") + (f"; from {', '.join(t['order']['stays'])} not" if t["order"]["stays"] else ""),
             marks(t["order"]["sets"]),
             marks(t["order"]["clears"]),
         )

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // How far the light of pictures, as kage render draws them, is from the reference (verif/oracle/light_reference.hpp).
 // 320x240; errors in LSB of a channel: mean and worst over pixels in some shadow, then over those of faces that are in
-// none. Then the same pixels in shadow by the steps to the truth that a core may take; and what dicing gains and costs.
+// none. Then the same pixels in shadow by the steps to the truth that a core may take; what the last of these, light
+// after light, gains and costs; and what dicing does.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
@@ -32,13 +34,16 @@ struct Step {
   std::string_view name;
   int class_bits;
   std::optional<double> darkening;
+  int linear_bits = 0;
 };
 // All shadows took so much of a colour until shares were fitted.
-constexpr std::array<Step, 5> kSteps{{{"constant SHADE", 1, 0.55},
+constexpr std::array<Step, 7> kSteps{{{"constant SHADE", 1, 0.55},
                                       {"fitted SHADE", 1, std::nullopt},
                                       {"CLASS_BITS 4", 4, std::nullopt},
                                       {"CLASS_BITS 8", 8, std::nullopt},
-                                      {"CLASS_BITS 11", 11, std::nullopt}}};
+                                      {"CLASS_BITS 11", 11, std::nullopt},
+                                      {"LINEAR_BITS 10", 1, std::nullopt, 10},
+                                      {"LINEAR_BITS 12", 1, std::nullopt, 12}}};
 
 /// The same scenes with each of the steps that can have their lights, all with smooth colour.
 void step_errors() {
@@ -57,9 +62,10 @@ void step_errors() {
       c.color_frac = 8;
       c.shade_frac = 16;
       c.class_bits = s.class_bits;
-      c.lights = static_cast<int>(f.lights.size());
+      c.linear_bits = s.linear_bits;
+      c.lights = derived::has_passes(c) ? 1 : static_cast<int>(f.lights.size());
       c.count_bits = f.lights[0].shape != LightShape::point ? 4 : derived::has_table(c) ? 1 : 0;
-      if (f.lights.size() > 1 && !derived::has_table(c)) {
+      if (f.lights.size() > 1 && !derived::has_table(c) && !derived::has_passes(c)) {
         fmt::print(" {:>15}", "");
         continue;
       }
@@ -94,6 +100,46 @@ struct Judged {
   std::vector<ReferencePixel> reference;
 };
 
+/// A picture's error, its frame's kB, and its thousands of clocks by design.
+struct Taken {
+  LightError error;
+  std::size_t kilobytes;
+  std::uint64_t kiloclocks;
+};
+Taken taken(const Judged& of, const Config& c, const Look& look) {
+  const FrameGeometry g = make_geometry(of.drawn, c, kWidth, kHeight, {.look = look});
+  std::vector<std::uint32_t> words;
+  make_frame(g, c, 0, words);
+  const Layout layout(c);
+  PhaseCounter counter(c);
+  counter.start(kWidth);
+  TokenWalk walk(layout, words);
+  for (auto token = walk.next(); !token.empty(); token = walk.next()) counter.token(decode(c, layout, token));
+  return {compare_light(draw(g, c), of.reference), (words.size() * 4 + 500) / 1000,
+          (counter.sums().clocks() + 500) / 1000};
+}
+
+/// The default choice beside light after light in a core of as many lanes and counters.
+void light_after_light(const std::string& name, const Scene& scene) {
+  const NamedConfig chosen = choose_config(scene, {.width = kWidth, .height = kHeight});
+  const Judged of(scene);
+  Config c = chosen.config;
+  const auto print = [](const Taken& t) {
+    fmt::print(" {:6.2f} {:5.1f} {:5.1f} {:6} {:7}", t.error.mean(), t.error.worst, t.error.psnr(), t.kilobytes,
+               t.kiloclocks);
+  };
+  fmt::print("{:17} {:13}", name, chosen.name);
+  print(taken(of, c, {}));
+  c.linear_bits = 12;
+  c.smooth = c.lights = c.class_bits = 1;
+  const auto& lights = of.drawn.lights;
+  if (std::ranges::all_of(lights, [](const Light& l) { return l.shape == LightShape::point; })) c.count_bits = 0;
+  if (c.count_bits > 0) c.count_bits = 4;
+  c.color_frac = std::max(c.color_frac, 8);
+  print(taken(of, c, {}));
+  fmt::print("\n");
+}
+
 /// Each error of shading that is allowed, with what it leaves and what it takes.
 void dicing(const std::string& name, const Scene& scene) {
   const NamedConfig chosen = choose_config(scene, {.width = kWidth, .height = kHeight});
@@ -104,16 +150,8 @@ void dicing(const std::string& name, const Scene& scene) {
   for (const int most : kMaxShading) {
     Look look;
     look.max_shading = most;
-    const FrameGeometry g = make_geometry(of.drawn, c, kWidth, kHeight, {.look = look});
-    std::vector<std::uint32_t> words;
-    make_frame(g, c, 0, words);
-    const Layout layout(c);
-    PhaseCounter counter(c);
-    counter.start(kWidth);
-    TokenWalk walk(layout, words);
-    for (auto token = walk.next(); !token.empty(); token = walk.next()) counter.token(decode(c, layout, token));
-    fmt::print(" {:6.1f} {:5} {:5}", compare_light(draw(g, c), of.reference).psnr(), (words.size() * 4 + 500) / 1000,
-               (counter.sums().clocks() + 500) / 1000);
+    const Taken t = taken(of, c, look);
+    fmt::print(" {:6.1f} {:5} {:5}", t.error.psnr(), t.kilobytes, t.kiloclocks);
   }
   fmt::print("\n");
 }
@@ -141,6 +179,13 @@ int main(int argc, char** argv) {
     for (const std::string& name : builtin_scenes()) reference_errors(name, Scene::load(name));
   }
   if (which.empty() || which == "steps") step_errors();
+  if (which.empty() || which == "passes") {
+    fmt::print("{:31}{:>34}{:>34}\n", "steps, dB, kB", "default choice", "light after light");
+    constexpr std::string_view kColumns = "   mean worst    dB     kB kclocks";
+    fmt::print("{:17} {:13}{}{}\n", "", "configuration", kColumns, kColumns);
+    for (const LitScene& lit : lit_scenes()) light_after_light(lit.name, Scene::from(lit.parts));
+    for (const std::string& name : builtin_scenes()) light_after_light(name, Scene::load(name));
+  }
   if (which.empty() || which == "dicing") {
     fmt::print("{:17} {:13}", "dB, kB, kclocks", "configuration");
     for (const int most : kMaxShading) fmt::print(" {:>18}", fmt::format("--max-shading {}", most));

@@ -16,7 +16,9 @@ namespace {
 /// Takes the state of every pixel right before its line ends.
 class StateTaker : public CoreObserver {
  public:
-  StateTaker(const Config& config, DrawnFrame& out) : config_(config), out_(&out) {}
+  /// `lit`: of each polygon of the scene, whether it takes shadow, where pixels do not say so.
+  StateTaker(const Config& config, const std::vector<bool>& lit, DrawnFrame& out)
+      : config_(config), lit_(&lit), out_(&out) {}
 
   void before(std::uint32_t /*index*/, const Token& token, std::span<const std::uint32_t> /*words*/,
               const LineView& line) override {
@@ -28,27 +30,42 @@ class StateTaker : public CoreObserver {
       const PixelState p = line.pixel(x);
       const std::size_t at = from + static_cast<std::size_t>(x);
       out_->z[at] = p.z;
-      if (resolves) out_->counts[at] = counts_of(p, line.bias());
+      if (resolves && config_.linear_bits > 0)
+        take_light(p, line.bias(), at);
+      else if (resolves)
+        out_->counts[at] = counts_of(p, line.bias());
     }
+    pass_ = resolves ? pass_ + 1 : 0;
     if (!resolves) ++y_;
   }
 
  private:
+  // Light after light has one counter, and a RESOLVE for each light.
+  void take_light(const PixelState& p, std::uint32_t bias, std::size_t at) {
+    if (pass_ >= out_->counts[at].size() || p.z == derived::clear_depth(config_) || !(*lit_)[out_->face[at]]) return;
+    out_->counts[at][pass_] = config_.count_bits > 0 ? static_cast<std::uint8_t>(p.counts[0]) : in_shadow(p, bias);
+  }
+
+  [[nodiscard]] std::uint8_t in_shadow(const PixelState& p, std::uint32_t bias) const {
+    return (config_.fsf > 0 ? p.fsf != 0 : ((p.dsf + bias) & derived::most_dsf(config_)) != 0) ? 1 : 0;
+  }
+
   [[nodiscard]] std::array<std::uint8_t, 8> counts_of(const PixelState& p, std::uint32_t bias) const {
     std::array<std::uint8_t, 8> counts{};
     if (p.normal_class == 0 || p.z == derived::clear_depth(config_)) return counts;
     if (config_.count_bits > 0) {
       for (std::size_t l = 0; l < counts.size(); ++l) counts[l] = static_cast<std::uint8_t>(p.counts[l]);
     } else {
-      const bool dark = config_.fsf > 0 ? p.fsf != 0 : ((p.dsf + bias) & derived::most_dsf(config_)) != 0;
-      counts[0] = dark ? 1 : 0;
+      counts[0] = in_shadow(p, bias);
     }
     return counts;
   }
 
   Config config_;
+  const std::vector<bool>* lit_;
   DrawnFrame* out_;
   int y_ = 0;  // the line at hand
+  std::size_t pass_ = 0;
 };
 
 /// Takes which translucent faces come to each pixel; their colours are their numbers.
@@ -95,7 +112,7 @@ FrameGeometry numbered_faces(const SceneFrame& frame, const Config& plain, const
   for (ScreenPolygon& p : g.polygons) {
     p.lit = false;
     p.normal_class = 0;
-    p.color_planes = -1;
+    p.color_planes = p.light_planes = -1;
     p.shade_cut = -1;
     for (unsigned c = 0; c < 3; ++c) p.color[c] = static_cast<std::uint8_t>(p.source >> (8 * c));
   }
@@ -106,6 +123,7 @@ FrameGeometry numbered_faces(const SceneFrame& frame, const Config& plain, const
 void take_faces(const SceneFrame& frame, const Config& config, const DrawOptions& options, DrawnFrame& out) {
   Config plain = config;
   plain.channels = 3;
+  plain.linear_bits = 0;
   FrameGeometry g = numbered_faces(frame, plain, options);
   g.fragments.clear();
   std::size_t at = 0;
@@ -135,7 +153,9 @@ DrawnFrame draw(const SceneFrame& frame, const Config& config, const DrawOptions
   TranslucentOrder order(options.order);
   const FrameGeometry g =
       make_geometry(frame, config, options.width, options.height, {.look = options.look, .order = &order});
-  StateTaker taker(config, out);
+  std::vector<bool> lit(frame.polygons.size(), false);
+  for (std::uint32_t i = 0; i < g.drawn; ++i) lit[g.polygons[i].source] = g.polygons[i].lit;
+  StateTaker taker(config, lit, out);
   const auto channels = static_cast<std::size_t>(config.channels);
   std::size_t at = 0;
   run(g, config, options.threads, &taker, [&](int, std::span<const std::uint8_t> p) {
@@ -152,7 +172,7 @@ std::vector<std::vector<std::uint32_t>> draw_layers(const SceneFrame& frame, con
   if (config.translucency == 0) return out;
   Config plain = config;
   plain.channels = 3;
-  plain.smooth = plain.color_frac = 0;
+  plain.smooth = plain.color_frac = plain.linear_bits = 0;
   LayerTaker taker(options.width, out);
   run(numbered_faces(frame, plain, options), plain, options.threads, &taker, [](int, std::span<const std::uint8_t>) {});
   return out;

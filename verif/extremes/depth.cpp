@@ -63,7 +63,7 @@ Outcome Ramp::errors(const Context& context, int first) const {
   if (std::abs(end - begin) > 8) p.a += p.a > 0 ? -std::abs(a_low) % (p.a + 1) : std::abs(a_low) % (1 - p.a);
   p.c = static_cast<std::int64_t>(begin * (1 << kPlaneFrac)) - p.a * (x - p.x0);
   if (begin > 2 && begin < top - 2 && count == 1) p.c += c_low;
-  SpanSetup::Ramp r = SpanSetup(frac, bits).at(p, x, 0, count);
+  SpanSetup::Ramp r = SpanSetup(frac, bits, frac).at(p, x, 0, count);
   if (context.injected(Injection::steep_step) && count > 1) ++r.step;
   const Int128 limit = static_cast<Int128>(1) << (bits - 1);
   const std::int64_t half = frac > 0 ? std::int64_t{1} << (frac - 1) : 0;

@@ -29,6 +29,13 @@ std::vector<Inputs> trial_configurations() {
   add("lights", [](Config& c) {
     c.smooth = 1, c.count_bits = 2, c.lights = 3, c.class_bits = 3, c.translucency = 1, c.shade_frac = 4;
   });
+  add("linear",
+      [](Config& c) { c.linear_bits = 10, c.smooth = 1, c.color_frac = 6, c.count_bits = 2, c.translucency = 1; });
+  add("linear_systolic", [](Config& c) {
+    c.linear_bits = 12, c.smooth = 1, c.color_frac = 4, c.fsf = 0, c.dsf_bits = 2, c.arrangement = 0;
+  });
+  add("linear_glass",
+      [](Config& c) { c.linear_bits = 10, c.smooth = 1, c.color_frac = 2, c.translucency = 1, c.beat_words = 2; });
   add("units", [](Config& c) { c.units = 3, c.dx_bits = 6, c.face_bits = 4, c.seg_bits = 4, c.translucency = 1; });
   add("counting_systolic", [](Config& c) { c.dsf_bits = 3, c.arrangement = 0; });
   add("smooth_systolic", [](Config& c) { c.smooth = 1, c.color_frac = 6, c.arrangement = 0; });

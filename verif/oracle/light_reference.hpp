@@ -205,11 +205,14 @@ struct LightError {
   std::uint64_t ties = 0;      ///< that are not compared
   double sum = 0;              ///< over the channels of those in shadow
   double worst = 0;            ///< of these
+  double beyond = 0;           ///< the same sum without the half step that rounding to 8 bits may take
   double lit_sum = 0;          ///< over the channels of the others
   double lit_worst = 0;        ///< of these
   double squares = 0;          ///< over the channels of all
 
   [[nodiscard]] double mean() const { return shadowed > 0 ? sum / (3 * static_cast<double>(shadowed)) : 0; }
+  /// The same without rounding to 8 bits.
+  [[nodiscard]] double mean_beyond() const { return shadowed > 0 ? beyond / (3 * static_cast<double>(shadowed)) : 0; }
   [[nodiscard]] double lit_mean() const {
     return pixels > shadowed ? lit_sum / (3 * static_cast<double>(pixels - shadowed)) : 0;
   }
@@ -243,6 +246,7 @@ inline LightError compare_light(const std::vector<std::uint32_t>& picture,
     for (int k = 0; k < 3; ++k) {
       const double d = std::abs((picture[i] >> (8 * k) & 255U) - p.color[k]);
       (p.shadowed ? e.sum : e.lit_sum) += d;
+      if (p.shadowed) e.beyond += std::max(0.0, d - 0.5);
       double& worst = p.shadowed ? e.worst : e.lit_worst;
       worst = std::max(worst, d);
       e.squares += d * d;

@@ -227,17 +227,44 @@ class SimpleCore : private SimpleFrame {
     return true;
   }
 
+  [[nodiscard]] bool linear() const { return c_.linear_bits > 0; }
+
+  // An OP behind a RESOLVE of linear light.
+  bool light() {
+    each(l_.op_xl, l_.op_xr, [this](Pixel& p, int k) {
+      if (depth(l_.op_z, l_.op_dz, k) > p.z || p.served == pass_) return;
+      p.served = pass_;
+      std::int64_t left = 0;
+      if (c_.count_bits > 0)
+        left = std::max<std::int64_t>(0, samples_ - p.count[0]);
+      else
+        left = c_.fsf != 0 ? !p.fsf : (p.dsf + lit_bias_) % modulus() == 0;
+      const std::int64_t parts = std::int64_t{1} << c_.count_bits;
+      for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch) {
+        const std::int64_t level = color(l_.op_color[ch], l_.op_dcolor[ch], k, c_.linear_bits + c_.count_bits);
+        const std::int64_t comes = (2 * level * left + parts) / (2 * parts);  // to the nearest, halves up
+        p.color[ch] = std::min(p.color[ch] + comes, (std::int64_t{1} << c_.linear_bits) - 1);
+      }
+      p.count[0] = 0;
+      p.dsf = 0;
+      p.fsf = false;
+    });
+    return true;
+  }
+
   bool op() {
-    if (all_lines() || phase_ > 0) return refuse(ErrorCode::ORDER);
+    if (all_lines() || (phase_ > 0 && !(linear() && phase_ == 2))) return refuse(ErrorCode::ORDER);
     if (bad_range(l_.op_xl, l_.op_xr) || lacks_class(field(l_.op_class))) return refuse(ErrorCode::RANGE);
     begun_ = true;
+    if (phase_ == 2) return light();
     each(l_.op_xl, l_.op_xr, [this](Pixel& p, int k) {
       const std::int64_t z = depth(l_.op_z, l_.op_dz, k);
       if (z >= p.z) return;
       p.z = z;
       p.normal_class = field(l_.op_class);
+      p.served = false;
       for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
-        p.color[ch] = color(l_.op_color[ch], l_.op_dcolor[ch], k);
+        p.color[ch] = color(l_.op_color[ch], l_.op_dcolor[ch], k, linear() ? c_.linear_bits : 8);
     });
     return true;
   }
@@ -246,6 +273,8 @@ class SimpleCore : private SimpleFrame {
     if (all_lines() || phase_ == 1) return refuse(ErrorCode::ORDER);
     if (bad_range(l_.tp_xl, l_.tp_xr)) return refuse(ErrorCode::RANGE);
     begun_ = true;
+    if (linear() && phase_ != 3) show();
+    shown_ = true;
     phase_ = 3;
     each(l_.tp_xl, l_.tp_xr, [this](Pixel& p, int k) {
       if (depth(l_.tp_z, l_.tp_dz, k) >= p.z) return;
@@ -265,8 +294,11 @@ class SimpleCore : private SimpleFrame {
 
   void weigh(Pixel& p, Field w) const { p.dsf = (p.dsf + static_cast<unsigned>(field(w))) % modulus(); }
 
+  // Volumes come first, or behind the spans of a light those of the next one.
+  [[nodiscard]] bool volumes_over() const { return phase_ > (linear() ? 2 : 1); }
+
   bool sp() {
-    if (all_lines() || phase_ > 1) return refuse(ErrorCode::ORDER);
+    if (all_lines() || volumes_over()) return refuse(ErrorCode::ORDER);
     if (bad_range(l_.sp_xl, l_.sp_xr)) return refuse(ErrorCode::RANGE);
     open_volume();
     each(l_.sp_xl, l_.sp_xr, [this](Pixel& p, int k) {
@@ -276,7 +308,7 @@ class SimpleCore : private SimpleFrame {
   }
 
   bool nc() {
-    if (all_lines() || phase_ > 1) return refuse(ErrorCode::ORDER);
+    if (all_lines() || volumes_over()) return refuse(ErrorCode::ORDER);
     if (bad_range(l_.nc_xl, l_.nc_xr)) return refuse(ErrorCode::RANGE);
     open_volume();
     each(l_.nc_xl, l_.nc_xr, [this](Pixel& p, int /*k*/) { weigh(p, l_.nc_w); });
@@ -285,7 +317,7 @@ class SimpleCore : private SimpleFrame {
 
   // IF.
   bool inside() {
-    if (all_lines() || phase_ > 1) return refuse(ErrorCode::ORDER);
+    if (all_lines() || volumes_over()) return refuse(ErrorCode::ORDER);
     open_volume();
     bias_ = (bias_ + static_cast<unsigned>(field(l_.if_w))) % modulus();
     return true;
@@ -342,9 +374,19 @@ class SimpleCore : private SimpleFrame {
   }
 
   bool resolve() {
-    if (all_lines() || phase_ != 1 || (c_.fsf != 0 && open_)) return refuse(ErrorCode::ORDER);
+    const bool may = linear() ? phase_ < 3 : phase_ == 1;
+    if (all_lines() || !may || (c_.fsf != 0 && open_)) return refuse(ErrorCode::ORDER);
     if (c_.count_bits != 0 && sample_) return refuse(ErrorCode::ORDER);
     phase_ = 2;
+    if (linear()) {
+      begun_ = true;
+      pass_ = !pass_;
+      samples_ = field(l_.resolve_samples);
+      lit_bias_ = bias_;
+      bias_ = 0;
+      open_ = sample_ = false;
+      return true;
+    }
     for (Pixel& p : pixels_) {
       if (c_.count_bits != 0)
         resolve_counts(p);

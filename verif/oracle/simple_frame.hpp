@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "kage/core.hpp"
@@ -27,6 +28,7 @@ class SimpleFrame {
     unsigned dsf;
     bool fsf;
     std::array<std::int64_t, 8> count;
+    bool served;  // by the light at hand, or else by the one before
   };
 
   FrameStatus fail(ErrorCode e) {
@@ -79,24 +81,46 @@ class SimpleFrame {
 
   void clear() {
     pixels_.assign(static_cast<std::size_t>(status_.width),
-                   Pixel{(std::int64_t{1} << c_.z_bits) - 1, background(), 0, 0, false, {}});
-    bias_ = 0;
+                   Pixel{(std::int64_t{1} << c_.z_bits) - 1, background(), 0, 0, false, {}, false});
+    bias_ = lit_bias_ = 0;
+    pass_ = false;
   }
 
   [[nodiscard]] std::array<std::int64_t, 3> background() const {
     return {words_[3] & 255U, words_[3] >> 8 & 255U, words_[3] >> 16 & 255U};
   }
 
-  /// A channel of a span k pixels from its start.
-  [[nodiscard]] std::int64_t color(Field start, Field step, int k) const {
+  /// A channel of a span k pixels from its start, in 2^-bits of white: as displayed, or linear light.
+  [[nodiscard]] std::int64_t color(Field start, Field step, int k, int bits = 8) const {
     if (c_.smooth == 0) return field(start);
     const std::int64_t v =
         shift_down(wrap(static_cast<Int128>(field(start)) + static_cast<Int128>(k) * field(step), 10 + c_.color_frac),
-                   c_.color_frac);
-    return v < 0 ? 0 : v > 255 ? 255 : v;
+                   c_.color_frac + 8 - bits);
+    const std::int64_t most = (std::int64_t{1} << bits) - 1;
+    return v < 0 ? 0 : v > most ? most : v;
+  }
+
+  /// Linear light as a display takes it: the sRGB formula, rounded to the nearest.
+  [[nodiscard]] std::int64_t shown(std::int64_t level) const {
+    const long double x = std::ldexp(static_cast<long double>(level), -c_.linear_bits);
+    const long double s = x <= 0.0031308L ? 12.92L * x : 1.055L * std::pow(x, 1 / 2.4L) - 0.055L;
+    return std::lround(255 * s);
+  }
+
+  /// The line's light becomes colours, and the background's where there is none.
+  void show() {
+    for (Pixel& p : pixels_) {
+      if (p.z == (std::int64_t{1} << c_.z_bits) - 1) {
+        p.color = background();
+        continue;
+      }
+      for (std::int64_t& v : p.color) v = shown(v);
+    }
   }
 
   void end_line() {
+    if (c_.linear_bits > 0 && !shown_) show();
+    shown_ = false;
     for (const Pixel& p : pixels_)
       for (std::size_t ch = 0; ch < static_cast<std::size_t>(c_.channels); ++ch)
         out_->push_back(static_cast<std::uint8_t>(p.color[ch]));
@@ -185,6 +209,7 @@ class SimpleFrame {
       if (best->z >= p.z) continue;
       p.z = best->z;
       p.normal_class = best->normal_class;
+      p.served = false;
       p.color = best->color;
     }
     return true;
@@ -217,6 +242,10 @@ class SimpleFrame {
   std::int64_t shade_ = 0;
   std::vector<std::array<std::int64_t, 3>> table_;
   unsigned bias_ = 0;
+  bool pass_ = false;  // of linear light: which of two values `served` has where the light at hand has come
+  bool shown_ = false;
+  std::int64_t samples_ = 0;  // of the light at hand
+  unsigned lit_bias_ = 0;     // or, without counters, its bias
 };
 
 }  // namespace kage::verif

@@ -67,7 +67,12 @@ Coverage::Coverage(const Config& config, Level level) : config_(config), golden_
   behind_ = add(true, "depth", "OP behind what it meets");
   face_depth_ = add_ramp(c.units > 0, "depth", "a segment's depth");
   color_ = add_ramp(c.smooth != 0, "colour", "a span's colour");
-  unlit_ = add(shadows, "light", "OP without light");
+  unlit_ = add(shadows && !derived::has_passes(c), "light", "OP without light");
+  light_early_ = add(derived::has_passes(c), "light", "a light without a volume on its line");
+  light_again_ = add(derived::has_passes(c), "light", "a second light of a line");
+  light_tie_ = add(derived::has_passes(c), "light", "a light finds that it has come");
+  light_most_ = add(derived::has_passes(c), "light", "a light makes a pixel as bright as can be");
+  light_few_ = add(derived::has_passes(c) && c.count_bits > 0, "light", "a light of fewer samples than are counted");
   last_class_ = add(table, "light", "OP of the table's last class");
   shade_none_ = add(has(Kind::SHADE) && !table, "light", "no SHADE");
   shade_zero_ = add(has(Kind::SHADE) && !table, "light", "SHADE of nothing");
@@ -176,7 +181,8 @@ void Coverage::header(std::span<const std::uint32_t> words, const LineView& line
   hit(one_line_, h.height == 1);
   hit(of_spans_, h.level() == Level::spans);
   end_ = h.height;
-  state_told_ = shade_ = has_spans_ = false;
+  state_told_ = shade_ = has_spans_ = volume_ = false;
+  lights_ = 0;
   waits_ = 0;
   came_ = {};
   table_.clear();
@@ -254,21 +260,30 @@ void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const s
       segment(t.segment);
       break;
     case Kind::OP:
-      opaque(t.span, line);
+      if (lights_ > 0)
+        light(t.span, line);
+      else
+        opaque(t.span, line);
       break;
     case Kind::RESOLVE:
       resolve(line);
+      if (!derived::has_passes(config_)) break;
+      hit(light_early_, !volume_);
+      hit(light_again_, ++lights_ == 2);
+      samples_ = t.samples;
       break;
     case Kind::TP:
       translucent(t.span, line);
       break;
     case Kind::EOL:
       hit(bare_line_, !has_spans_);
+      lights_ = 0;
       break;
     default:
       if (info_of(t.kind).volume) volume(t, line);
   }
   has_spans_ = t.kind != Kind::EOL;
+  volume_ = info_of(t.kind).volume;
 }
 
 void Coverage::after(std::uint32_t /*index*/, const Token& t, const LineView& line) {
@@ -297,6 +312,26 @@ void Coverage::opaque(const SpanToken& s, const LineView& line) {
   const std::uint32_t z = span_depth(config_, s, s.xl);
   hit(tie_, met != clear && z == met);
   hit(behind_, met != clear && z > met);
+}
+
+// An OP behind a RESOLVE of linear light.
+void Coverage::light(const SpanToken& s, const LineView& line) {
+  if (s.xl == s.xr) return;
+  ramps(s, true);
+  const auto pass = static_cast<std::uint32_t>(lights_) & 1U;
+  const std::int64_t most = (1 << config_.linear_bits) - 1;
+  for (int x = s.xl; x < s.xr; ++x) {
+    const PixelState p = line.pixel(x);
+    if (p.z == derived::clear_depth(config_) || span_depth(config_, s, x) > p.z) continue;
+    hit(light_tie_, p.served == pass);
+    if (p.served == pass) continue;
+    hit(light_few_, p.counts[0] > static_cast<std::uint32_t>(samples_));
+    const auto left = config_.count_bits > 0 ? static_cast<std::int64_t>(samples_) - p.counts[0]
+                      : in_shadow(p, 0)      ? 0
+                                             : 1;
+    const auto light = std::int64_t{span_levels(config_, s, x)[0]} * left >> config_.count_bits;
+    hit(light_most_, p.color[0] + light > most);
+  }
 }
 
 void Coverage::volume(const Token& t, const LineView& line) {

@@ -78,6 +78,7 @@ class Coverage : private CoreObserver {
   void made(Kind kind);
   void ramps(const SpanToken& s, bool colored);
   void opaque(const SpanToken& s, const LineView& line);
+  void light(const SpanToken& s, const LineView& line);
   void volume(const Token& t, const LineView& line);
   void translucent(const SpanToken& s, const LineView& line);
   [[nodiscard]] bool in_shadow(const PixelState& p, std::uint32_t bias) const;
@@ -102,6 +103,9 @@ class Coverage : private CoreObserver {
   std::vector<std::vector<std::int64_t>> faces_;  // dz, of each unit
   std::vector<int> segments_;                     // of the unit's line at hand
   bool has_spans_ = false;                        // the line at hand
+  bool volume_ = false;                           // its last token was of a volume, or ended one
+  int lights_ = 0;                                // its RESOLVEs of linear light
+  int samples_ = 0;                               // that the last one told
   int waits_ = 0;                                 // edges that a POLYGON waits for
   bool gradient_ = false;                         // it has had a GRADIENT
   int end_ = 0;                                   // one past the frame's last line
@@ -112,6 +116,7 @@ class Coverage : private CoreObserver {
   std::array<Point, kErrorNames.size()> error_{};
   Ramp depth_{}, face_depth_{}, color_{};
   Point tie_{}, behind_{}, unlit_{}, last_class_{};
+  Point light_early_{}, light_again_{}, light_tie_{}, light_most_{}, light_few_{};
   Point one_wide_{}, widest_{}, one_line_{}, bare_line_{};
   Point shade_none_{}, shade_zero_{}, shade_some_{}, shade_most_{};
   Point table_none_{}, table_whole_{}, table_cut_{}, share_most_{}, black_{}, half_sum_{}, counter_full_{};

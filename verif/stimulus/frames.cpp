@@ -55,6 +55,22 @@ bool random_sample(Random& random, const Config& c, int width, TokenWriter& w, s
   return volumes > 0;
 }
 
+/// A light's span for an opaque one: mostly its pixels and depth with another colour, sometimes less of it.
+SpanToken random_light(Random& random, const Config& c, int width, const SpanToken& of, const FrameStyle& style,
+                       int home) {
+  SpanToken s = random_span(random, c, width, style, home);
+  if (random.chance(0.1)) return s;
+  const SpanToken look = s;
+  s = of;
+  // The colour of a span as wide as the other is: its ramp has to stay in range.
+  if (style.port || look.xr - look.xl >= of.xr - of.xl) {
+    s.color = look.color;
+    s.dcolor = look.dcolor;
+  }
+  if (random.chance(0.1)) s.xr = random.in(s.xl, s.xr);
+  return s;
+}
+
 /// Samples that each put the whole line in shadow, spread over the lights.
 void dark_samples(const Config& c, int width, int samples, TokenWriter& w, std::array<std::uint64_t, kKinds>& count) {
   const auto add = [&count](Kind k) { ++count[static_cast<std::size_t>(k)]; };
@@ -90,8 +106,10 @@ std::array<std::uint64_t, kKinds> random_frame(Random& random, const Config& c, 
   for (int y = 0; y < height; ++y) {
     state.begin_line(y);
     const int home = style.port ? random.in(0, width - 1) : 0;
+    std::vector<SpanToken> opaque;
     for (int i = random.in(0, style.most_opaque); i > 0; --i) {
-      w.op(random_span(random, c, width, style, home, state.classes()));
+      opaque.push_back(random_span(random, c, width, style, home, state.classes()));
+      w.op(opaque.back());
       add(Kind::OP);
     }
     const bool dark = style.dark_samples > 0 && derived::has_table(c) && random.chance(style.dark_lines);
@@ -102,6 +120,18 @@ std::array<std::uint64_t, kKinds> random_frame(Random& random, const Config& c, 
                                                                   : random.in(0, style.most_samples);
     for (int sample = 0; sample < samples; ++sample)
       any_volume |= random_sample(random, c, width, w, count, style, home);
+    for (int light = derived::has_passes(c) ? random.in(0, 3) : 0; light > 0; --light) {
+      const auto full = static_cast<int>(derived::most_count(c));
+      w.resolve(random.chance(0.5) ? std::min(full, samples) : random.in(0, full));
+      add(Kind::RESOLVE);
+      any_volume = false;
+      for (const SpanToken& s : opaque) {
+        if (random.chance(0.1)) continue;
+        w.op(random_light(random, c, width, s, style, home));
+        add(Kind::OP);
+      }
+      if (random.chance(0.5)) any_volume = random_sample(random, c, width, w, count, style, home);
+    }
     if (any_volume) {
       w.resolve();
       add(Kind::RESOLVE);

@@ -88,7 +88,8 @@ class RandomTree {
     const std::int64_t steepest = ((std::int64_t{1} << (depth_bits() - 2)) - 1) / width_;
     t.dz = random_->chance(0.3) ? 0 : random_->integer(-steepest, steepest);
     if (port && random_->chance(0.3)) t.dz = random_field(*random_, depth_bits());
-    for (std::size_t i = 0; i < static_cast<std::size_t>(config_.channels); ++i) t.color[i] = random_->in(0, 255);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(config_.channels); ++i)
+      t.color[i] = random_->in(0, (1 << derived::pixel_level_bits(config_)) - 1);
     return t;
   }
 
@@ -189,7 +190,7 @@ class RandomState {
     const bool has_faces = with_tree_ || (c.units > 0 && random.chance(0.2));
     const bool faces_first = random.chance(0.5);
     if (has_faces && faces_first) tree_.write_faces(w, of(Kind::FACE), table);
-    if (c.dsf_bits > 0 && !derived::has_table(c) && random.chance(0.8)) {
+    if (c.dsf_bits > 0 && !derived::has_table(c) && !derived::has_passes(c) && random.chance(0.8)) {
       const auto all = static_cast<int>(derived::whole_share(c));
       w.shade(static_cast<std::uint32_t>(random.chance(0.1) ? 0 : random.chance(0.1) ? all : random.in(0, all)));
       ++of(Kind::SHADE);

@@ -55,6 +55,7 @@ inline constexpr std::array<GoldenField, KAGE_TOKEN_FIELDS> kGoldenFields{{
     {"top_y", -1},
     {"bottom_x", -1},
     {"bottom_y", -1},
+    {"samples", -1},
 }};
 
 /// By KAGE_PIXEL_...
@@ -74,15 +75,17 @@ inline constexpr std::array<const char*, KAGE_PIXEL_FIELDS> kPixelFields{{
     "count[5]",
     "count[6]",
     "count[7]",
+    "served",
 }};
 
 /// Whether the configuration has that field of a pixel, KAGE_PIXEL_...
 constexpr bool has_pixel_field(const kage::Config& c, int field) {
   if (field < 1) return true;
   if (field < 4) return field - 1 < c.channels;
-  if (field < 5) return (c.dsf_bits > 0 ? c.class_bits : 0) > 0;
+  if (field < 5) return (c.dsf_bits > 0 && c.linear_bits == 0 ? c.class_bits : 0) > 0;
   if (field < 6) return (c.dsf_bits) > 0;
   if (field < 7) return (c.fsf) > 0;
   if (field < 15) return (c.lights * c.count_bits) > 0 && field - 7 < c.lights;
+  if (field < 16) return (c.linear_bits > 0 ? 1 : 0) > 0;
   return false;
 }

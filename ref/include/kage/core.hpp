@@ -36,12 +36,15 @@ std::string describe(const FrameStatus& status);
 
 /// State that a core keeps for a pixel of the current line (docs/stream.md, "What a pixel does").
 struct PixelState {
-  std::uint32_t z = 0;                    ///< 2^Z_BITS - 1: clear; then all below is 0 until a TP of the line has come
-  std::array<std::uint8_t, 3> color{};    ///< one channel: the first
+  std::uint32_t z = 0;  ///< 2^Z_BITS - 1: clear; then all below is 0 until a TP of the line has come
+  /// By channel, 0 .. 255; with linear light until a TP of the line has come 0 .. 2^LINEAR_BITS - 1. One channel: the
+  /// first.
+  std::array<std::uint16_t, 3> color{};
   std::uint32_t normal_class = 0;         ///< 0 is unlit; without a table 1 is lit
   std::uint32_t dsf = 0;                  ///< modulo 2^DSF_BITS
   std::uint32_t fsf = 0;                  ///< 0 or 1
   std::array<std::uint32_t, 8> counts{};  ///< by light
+  std::uint32_t served = 0;               ///< 0 or 1: the pass of its newest light, modulo 2
 
   bool operator==(const PixelState&) const = default;
 };
@@ -72,10 +75,10 @@ class LineView {
 
   /// Depth and draw index, colour and class of a unit's pixel before the tree merges them. Only after a TREE.
   struct UnitPixel {
-    std::uint32_t z = 0;                  ///< 0 .. 2^Z_BITS - 1; all ones: the unit has nothing there
-    std::uint32_t index = 0;              ///< draw index of its polyhedron
-    std::array<std::uint8_t, 3> color{};  ///< by channel, as displayed
-    std::uint32_t normal_class = 0;       ///< 0 is unlit; without a table 1 is lit
+    std::uint32_t z = 0;                   ///< 0 .. 2^Z_BITS - 1; all ones: the unit has nothing there
+    std::uint32_t index = 0;               ///< draw index of its polyhedron
+    std::array<std::uint16_t, 3> color{};  ///< by channel, as the pixel will hold it
+    std::uint32_t normal_class = 0;        ///< 0 is unlit; without a table 1 is lit
   };
   /// A unit's pixel before the tree. Not checked; only after a TREE. [Ohno 1985]
   /// @param unit 0 .. UNITS - 1

@@ -131,6 +131,7 @@ struct Config {
   int seg_bits = 7;  ///< a unit buffers 2^SEG_BITS segments of a line
   int order_bits = 8;  ///< bits of a polyhedron's draw index, which decides between equal depths
   int classic = 0;  ///< 1: segments are the paper's two 16-bit words; needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9
+  int linear_bits = 0;  ///< bits of a channel of linear light, to which a line's lights are added one after the other; 0: a pixel has one colour, which RESOLVE darkens
   int arrangement = 1;  ///< 0 systolic (a processor per pixel), 1 banked (LANES over line buffers)
   int lanes = 4;  ///< banked: pixels worked on per clock
   int max_width = 640;  ///< pixels of the longest line; systolic: the number of processors
@@ -161,6 +162,7 @@ inline constexpr Config kGreatest{
     .seg_bits = 12,
     .order_bits = 16,
     .classic = 1,
+    .linear_bits = 14,
     .arrangement = 1,
     .lanes = 32,
     .max_width = 32767,
@@ -176,36 +178,38 @@ struct ParamInfo {
   int min;  ///< the least legal value
   int max;  ///< the greatest
   bool affects_pixels;  ///< else it is of how the hardware is made
+  bool late;  ///< it came later: streams of cores that have 0 of it are as they were before
   std::uint64_t allowed;  ///< bit v set: value v is legal; 0: every value from min to max is
   std::string_view doc;  ///< what it means
 };
 
 /// All parameters, in the order of the definition file.
-inline constexpr std::array<ParamInfo, 24> kParams{{
-    {"X_BITS", &Config::x_bits, 11, 4, 15, true, 0x0, "bits of a pixel position; a line holds at most 2^X_BITS - 1 pixels"},
-    {"Z_BITS", &Config::z_bits, 24, 4, 28, true, 0x0, "bits of stored depth; all ones is clear, drawn depth lies in 1 .. 2^Z_BITS - 2"},
-    {"Z_FRAC", &Config::z_frac, 11, 0, 16, true, 0x0, "fraction bits of a span's depth; at least ceil(log2 width) keeps the error near half an LSB"},
-    {"CHANNELS", &Config::channels, 3, 1, 3, true, 0xa, "colour channels of 8 bits: 1 (grey) or 3 (red, green, blue)"},
-    {"SMOOTH", &Config::smooth, 0, 0, 1, true, 0x0, "1: spans carry a colour slope (Gouraud); 0: one colour a span"},
-    {"COLOR_FRAC", &Config::color_frac, 0, 0, 16, true, 0x0, "fraction bits of a span's colour; 0 without SMOOTH"},
-    {"DSF_BITS", &Config::dsf_bits, 1, 0, 8, true, 0x0, "bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows"},
-    {"FSF", &Config::fsf, 1, 0, 1, true, 0x0, "1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE"},
-    {"SHADE_FRAC", &Config::shade_frac, 8, 1, 16, true, 0x0, "fraction bits of SHADE and of the table's shares, the darkening of a shadowed pixel"},
-    {"COUNT_BITS", &Config::count_bits, 0, 0, 8, true, 0x0, "bits of a pixel's counters of shadowed samples, one counter a light (needs DSF_BITS > 0); 0: one sample, no counter"},
-    {"LIGHTS", &Config::lights, 1, 1, 8, true, 0x0, "lights that counters and table tell apart; more than 1 needs COUNT_BITS > 0 and CLASS_BITS > 1"},
-    {"CLASS_BITS", &Config::class_bits, 1, 1, 11, true, 0x0, "bits of a span's class; 1: lit or not, and no table; more: the light's share is looked up in a table by class (needs COUNT_BITS > 0)"},
-    {"TRANSLUCENCY", &Config::translucency, 0, 0, 1, true, 0x0, "1: translucent spans are blended over what is drawn; 0: a core without blender"},
-    {"UNITS", &Config::units, 0, 0, 64, true, 0x0, "expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree"},
-    {"FACE_BITS", &Config::face_bits, 7, 2, 12, true, 0x0, "bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank"},
-    {"DX_BITS", &Config::dx_bits, 9, 2, 15, true, 0x0, "bits of a segment's length, 1 .. 2^DX_BITS - 1 pixels"},
-    {"SEG_BITS", &Config::seg_bits, 7, 2, 12, true, 0x0, "a unit buffers 2^SEG_BITS segments of a line"},
-    {"ORDER_BITS", &Config::order_bits, 8, 1, 16, true, 0x0, "bits of a polyhedron's draw index, which decides between equal depths"},
-    {"CLASSIC", &Config::classic, 0, 0, 1, true, 0x0, "1: segments are the paper's two 16-bit words; needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9"},
-    {"ARRANGEMENT", &Config::arrangement, 1, 0, 1, false, 0x0, "0 systolic (a processor per pixel), 1 banked (LANES over line buffers)"},
-    {"LANES", &Config::lanes, 4, 1, 32, false, 0x100010116, "banked: pixels worked on per clock"},
-    {"MAX_WIDTH", &Config::max_width, 640, 1, 32767, false, 0x0, "pixels of the longest line; systolic: the number of processors"},
-    {"BEAT_WORDS", &Config::beat_words, 4, 1, 8, false, 0x116, "32-bit words in a beat of the input port"},
-    {"ACTIVE", &Config::active, 0, 0, 4096, false, 0x0, "polygons that the front end keeps at once; 0 is a core without front end, which takes spans alone"},
+inline constexpr std::array<ParamInfo, 25> kParams{{
+    {"X_BITS", &Config::x_bits, 11, 4, 15, true, false, 0x0, "bits of a pixel position; a line holds at most 2^X_BITS - 1 pixels"},
+    {"Z_BITS", &Config::z_bits, 24, 4, 28, true, false, 0x0, "bits of stored depth; all ones is clear, drawn depth lies in 1 .. 2^Z_BITS - 2"},
+    {"Z_FRAC", &Config::z_frac, 11, 0, 16, true, false, 0x0, "fraction bits of a span's depth; at least ceil(log2 width) keeps the error near half an LSB"},
+    {"CHANNELS", &Config::channels, 3, 1, 3, true, false, 0xa, "colour channels of 8 bits: 1 (grey) or 3 (red, green, blue)"},
+    {"SMOOTH", &Config::smooth, 0, 0, 1, true, false, 0x0, "1: spans carry a colour slope (Gouraud); 0: one colour a span"},
+    {"COLOR_FRAC", &Config::color_frac, 0, 0, 16, true, false, 0x0, "fraction bits of a span's colour; 0 without SMOOTH"},
+    {"DSF_BITS", &Config::dsf_bits, 1, 0, 8, true, false, 0x0, "bits of the shadow counter DSF; 1 is the paper's parity, 0 a core without shadows"},
+    {"FSF", &Config::fsf, 1, 0, 1, true, false, 0x0, "1: a flag FSF collects several volumes (needs DSF_BITS > 0); 0: one volume at most, read by RESOLVE"},
+    {"SHADE_FRAC", &Config::shade_frac, 8, 1, 16, true, false, 0x0, "fraction bits of SHADE and of the table's shares, the darkening of a shadowed pixel"},
+    {"COUNT_BITS", &Config::count_bits, 0, 0, 8, true, false, 0x0, "bits of a pixel's counters of shadowed samples, one counter a light (needs DSF_BITS > 0); 0: one sample, no counter"},
+    {"LIGHTS", &Config::lights, 1, 1, 8, true, false, 0x0, "lights that counters and table tell apart; more than 1 needs COUNT_BITS > 0 and CLASS_BITS > 1"},
+    {"CLASS_BITS", &Config::class_bits, 1, 1, 11, true, false, 0x0, "bits of a span's class; 1: lit or not, and no table; more: the light's share is looked up in a table by class (needs COUNT_BITS > 0)"},
+    {"TRANSLUCENCY", &Config::translucency, 0, 0, 1, true, false, 0x0, "1: translucent spans are blended over what is drawn; 0: a core without blender"},
+    {"UNITS", &Config::units, 0, 0, 64, true, false, 0x0, "expansion units, each with the segments of convex polyhedra; 0 is a core without compare tree"},
+    {"FACE_BITS", &Config::face_bits, 7, 2, 12, true, false, 0x0, "bits of a face number; a unit's table holds 2^FACE_BITS - 1 faces, all ones is blank"},
+    {"DX_BITS", &Config::dx_bits, 9, 2, 15, true, false, 0x0, "bits of a segment's length, 1 .. 2^DX_BITS - 1 pixels"},
+    {"SEG_BITS", &Config::seg_bits, 7, 2, 12, true, false, 0x0, "a unit buffers 2^SEG_BITS segments of a line"},
+    {"ORDER_BITS", &Config::order_bits, 8, 1, 16, true, false, 0x0, "bits of a polyhedron's draw index, which decides between equal depths"},
+    {"CLASSIC", &Config::classic, 0, 0, 1, true, false, 0x0, "1: segments are the paper's two 16-bit words; needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7, DX_BITS 9"},
+    {"LINEAR_BITS", &Config::linear_bits, 0, 0, 14, true, true, 0x7c01, "bits of a channel of linear light, to which a line's lights are added one after the other; 0: a pixel has one colour, which RESOLVE darkens"},
+    {"ARRANGEMENT", &Config::arrangement, 1, 0, 1, false, false, 0x0, "0 systolic (a processor per pixel), 1 banked (LANES over line buffers)"},
+    {"LANES", &Config::lanes, 4, 1, 32, false, false, 0x100010116, "banked: pixels worked on per clock"},
+    {"MAX_WIDTH", &Config::max_width, 640, 1, 32767, false, false, 0x0, "pixels of the longest line; systolic: the number of processors"},
+    {"BEAT_WORDS", &Config::beat_words, 4, 1, 8, false, false, 0x116, "32-bit words in a beat of the input port"},
+    {"ACTIVE", &Config::active, 0, 0, 4096, false, true, 0x0, "polygons that the front end keeps at once; 0 is a core without front end, which takes spans alone"},
 }};
 
 /// A rule that binds parameters together. `text` says it, and why; `legal` is it as an expression of parameters.
@@ -217,7 +221,7 @@ struct RuleInfo {
 };
 
 /// All rules, in the order of the definition file.
-inline constexpr std::array<RuleInfo, 7> kRules{{
+inline constexpr std::array<RuleInfo, 10> kRules{{
     {"FSF needs DSF_BITS > 0: it collects what DSF counts", "FSF == 0 || DSF_BITS > 0",
      [](const Config& c) { return c.fsf == 0 || c.dsf_bits > 0; }, [](Config& c) { c.fsf = 0; }},
     {"COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow", "COUNT_BITS == 0 || DSF_BITS > 0",
@@ -226,6 +230,12 @@ inline constexpr std::array<RuleInfo, 7> kRules{{
      [](const Config& c) { return c.class_bits == 1 || c.count_bits > 0; }, [](Config& c) { c.class_bits = 1; }},
     {"LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table", "LIGHTS == 1 || (COUNT_BITS > 0 && CLASS_BITS > 1)",
      [](const Config& c) { return c.lights == 1 || (c.count_bits > 0 && c.class_bits > 1); }, [](Config& c) { c.lights = 1; }},
+    {"LINEAR_BITS > 0 needs DSF_BITS > 0, SMOOTH, LIGHTS 1 and CLASS_BITS 1: light after light has one counter and no table", "LINEAR_BITS == 0 || (DSF_BITS > 0 && SMOOTH > 0 && LIGHTS == 1 && CLASS_BITS == 1)",
+     [](const Config& c) { return c.linear_bits == 0 || (c.dsf_bits > 0 && c.smooth > 0 && c.lights == 1 && c.class_bits == 1); }, [](Config& c) { c.linear_bits = 0; }},
+    {"LINEAR_BITS > 0 needs ACTIVE 0: light after light comes by spans", "LINEAR_BITS == 0 || ACTIVE == 0",
+     [](const Config& c) { return c.linear_bits == 0 || c.active == 0; }, [](Config& c) { c.active = 0; }},
+    {"LINEAR_BITS > 0 needs COLOR_FRAC of LINEAR_BITS + COUNT_BITS - 8 at least: a sample's part of linear light", "LINEAR_BITS + COUNT_BITS <= 8 + COLOR_FRAC || LINEAR_BITS == 0",
+     [](const Config& c) { return c.linear_bits + c.count_bits <= 8 + c.color_frac || c.linear_bits == 0; }, [](Config& c) { c.color_frac = c.linear_bits + c.count_bits - 8; }},
     {"COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction", "COLOR_FRAC == 0 || SMOOTH > 0",
      [](const Config& c) { return c.color_frac == 0 || c.smooth > 0; }, [](Config& c) { c.color_frac = 0; }},
     {"CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9: the paper's segment", "CLASSIC == 0 || (Z_BITS == 15 && Z_FRAC == 0 && FACE_BITS == 7 && DX_BITS == 9)",
@@ -240,7 +250,8 @@ inline constexpr std::array<RuleInfo, 7> kRules{{
 constexpr std::uint32_t param_hash(const Config& c) {
   std::uint32_t h = 2166136261u;
   for (const ParamInfo& p : kParams)
-    if (p.affects_pixels) h = (h ^ static_cast<std::uint32_t>(c.*p.member)) * 16777619u;
+    if (p.affects_pixels && !(p.late && c.*p.member == 0))
+      h = (h ^ static_cast<std::uint32_t>(c.*p.member)) * 16777619u;
   return h;
 }
 
@@ -257,7 +268,7 @@ enum class Kind : std::uint8_t {
   IF = 9,  ///< the eye is inside the volume for the whole line
   EV = 10,  ///< end of a volume
   ES = 11,  ///< end of a light sample
-  RESOLVE = 12,  ///< darken what is in shadow
+  RESOLVE = 12,  ///< darken what is in shadow; with LINEAR_BITS: of the light whose opaque spans follow so many samples have been tried
   TP = 13,  ///< translucent span, back to front
   EOL = 14,  ///< end of the line with number y
   END = 15,  ///< end of the frame
@@ -380,6 +391,7 @@ struct Layout {
   Field es_xl;  ///< ES's xl
   Field es_xr;  ///< ES's xr
   Field es_light;  ///< ES's light
+  Field resolve_samples;  ///< RESOLVE's samples
   Field tp_xl;  ///< TP's xl
   Field tp_xr;  ///< TP's xr
   Field tp_alpha;  ///< TP's alpha
@@ -432,7 +444,7 @@ struct Layout {
     at = kKindBits;  // SHADE
     put(shade_shade, c.shade_frac + 1, false);
     bits[1] = static_cast<std::uint16_t>(at);
-    words[1] = static_cast<std::uint8_t>((c.class_bits > 1 ? 0 : c.dsf_bits > 0) ? (at + 31) / 32 : 0);
+    words[1] = static_cast<std::uint8_t>((c.class_bits > 1 || c.linear_bits > 0 ? 0 : c.dsf_bits > 0) ? (at + 31) / 32 : 0);
     at = kKindBits;  // TABLE
     put(table_class, c.class_bits, false);
     put(table_light, c.lights > 4 ? 3 : (c.lights > 2 ? 2 : 1), false);
@@ -443,9 +455,9 @@ struct Layout {
     put(face_unit, c.units > 32 ? 6 : (c.units > 16 ? 5 : (c.units > 8 ? 4 : (c.units > 4 ? 3 : (c.units > 2 ? 2 : 1)))), false);
     put(face_face, c.face_bits, false);
     put(face_index, c.order_bits, false);
-    put(face_class, c.dsf_bits > 0 ? c.class_bits : 0, false);
+    put(face_class, c.dsf_bits > 0 && c.linear_bits == 0 ? c.class_bits : 0, false);
     put(face_dz, c.z_bits + c.z_frac + 2, true);
-    for (int i = 0; i < c.channels; ++i) put(face_color[i], 8, false);
+    for (int i = 0; i < c.channels; ++i) put(face_color[i], c.linear_bits > 0 ? c.linear_bits : 8, false);
     bits[3] = static_cast<std::uint16_t>(at);
     words[3] = static_cast<std::uint8_t>((c.units > 0) ? (at + 31) / 32 : 0);
     at = kKindBits;  // SEG
@@ -463,7 +475,7 @@ struct Layout {
     at = kKindBits;  // OP
     put(op_xl, c.x_bits, false);
     put(op_xr, c.x_bits, false);
-    put(op_class, c.dsf_bits > 0 ? c.class_bits : 0, false);
+    put(op_class, c.dsf_bits > 0 && c.linear_bits == 0 ? c.class_bits : 0, false);
     put(op_z, c.z_bits + c.z_frac + 2, true);
     put(op_dz, c.z_bits + c.z_frac + 2, true);
     for (int i = 0; i < c.channels; ++i) put(op_color[i], c.smooth > 0 ? (10 + c.color_frac) : 8, (c.smooth) != 0);
@@ -500,6 +512,7 @@ struct Layout {
     bits[11] = static_cast<std::uint16_t>(at);
     words[11] = static_cast<std::uint8_t>((c.count_bits > 0) ? (at + 31) / 32 : 0);
     at = kKindBits;  // RESOLVE
+    put(resolve_samples, c.linear_bits > 0 ? c.count_bits : 0, false);
     bits[12] = static_cast<std::uint16_t>(at);
     words[12] = static_cast<std::uint8_t>((c.dsf_bits > 0) ? (at + 31) / 32 : 0);
     at = kKindBits;  // TP
@@ -527,7 +540,7 @@ struct Layout {
     bits[25] = static_cast<std::uint16_t>(at);
     words[25] = static_cast<std::uint8_t>((c.active > 0 && c.smooth > 0) ? (at + 31) / 32 : 0);
     at = kKindBits;  // POLYGON
-    put(polygon_class, c.dsf_bits > 0 ? c.class_bits : 0, false);
+    put(polygon_class, c.dsf_bits > 0 && c.linear_bits == 0 ? c.class_bits : 0, false);
     put(polygon_w, c.dsf_bits > 0 ? c.dsf_bits + 1 : 0, true);
     put(polygon_alpha, c.translucency > 0 ? 8 : 0, false);
     for (int i = 0; i < c.channels; ++i) put(polygon_color[i], 8, false);

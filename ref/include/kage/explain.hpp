@@ -37,9 +37,9 @@ struct PixelTouch {
 
 /// Writes a colour.
 /// @param config says how many channels there are
-/// @param color 0 .. 255 each
+/// @param color of each channel, as displayed or as a pixel holds it
 /// @return "38,44,56", or one number where the core has one channel
-std::string color_text(const Config& config, const std::array<std::uint8_t, 3>& color);
+std::string color_text(const Config& config, const std::array<std::uint16_t, 3>& color);
 
 /// One comparison in the tree of a polyhedra line.
 struct TreeMatch {
@@ -57,7 +57,7 @@ struct PixelHistory {
   std::vector<PixelTouch> touches;           ///< in the order of the tokens
   std::vector<LineView::UnitPixel> units;    ///< what each expansion unit had for the pixel, where a TREE came
   std::vector<std::vector<TreeMatch>> tree;  ///< the path through the tree, level by level
-  std::array<std::uint8_t, 3> color{};       ///< what left
+  std::array<std::uint8_t, 3> color{};       ///< what left, as displayed
   std::string color_text;                    ///< why that colour, in words
 };
 

@@ -61,7 +61,10 @@ struct ScreenPolygon {
   ScreenPlane depth;                    ///< in depth steps
   std::array<std::uint8_t, 3> color{};  ///< flat colour, as displayed
   std::int32_t color_planes = -1;       ///< first of three in FrameGeometry::color_planes, or -1: flat
-  std::int32_t shade_cut = -1;          ///< the first that parts it, in FrameGeometry::shade_cuts; -1: it is not diced
+  /// With linear light, of an opaque one: first in FrameGeometry::color_planes of three for the light from everywhere
+  /// and three for each pass, or -1.
+  std::int32_t light_planes = -1;
+  std::int32_t shade_cut = -1;  ///< the first that parts it, in FrameGeometry::shade_cuts; -1: it is not diced
   /// Eye and some light that casts shadows are on the same side of it, and it is not Triangle::unlit.
   bool lit = false;
   std::uint32_t normal_class = 0;  ///< into the light table, from 1; 0 if it is not lit or there is no table
@@ -87,7 +90,8 @@ struct ShadeCut {
 
 /// Colour and class of a part of a diced polygon.
 struct Shade {
-  std::uint32_t color_planes = 0;  ///< first of three in FrameGeometry::color_planes
+  /// First of three in FrameGeometry::color_planes; with linear light of as many as ScreenPolygon::light_planes has.
+  std::uint32_t color_planes = 0;
   std::uint32_t normal_class = 0;  ///< as ScreenPolygon::normal_class
 };
 
@@ -176,12 +180,14 @@ struct FrameGeometry {
   /// The same by class and light: entry (class - 1) LIGHTS + light. Empty without table.
   std::vector<std::array<std::uint32_t, 3>> shares;
   std::vector<std::uint8_t> sample_light;  ///< of each light sample its light; samples of a light are consecutive
+  std::vector<int> passes;                 ///< with linear light, of each light its samples
   int sub_bits = kMostSubBits;             ///< Look::sub_bits: coordinates are multiples of 2^(8 - sub_bits)
   std::vector<ScreenVertex> vertices;      ///< of all outlines
   /// First the opaque drawn ones, in draw order, then other faces of volumes, then translucent ones.
   std::vector<ScreenPolygon> polygons;
-  std::uint32_t drawn = 0;                       ///< number of the opaque drawn ones
-  std::vector<ScreenPlane> color_planes;         ///< value in units of an 8-bit colour
+  std::uint32_t drawn = 0;  ///< number of the opaque drawn ones
+  /// Value in units of an 8-bit colour, as displayed; with linear light in 1/256 of white, of a light that of a sample.
+  std::vector<ScreenPlane> color_planes;
   std::vector<ShadeCut> shade_cuts;              ///< of all diced polygons
   std::vector<Shade> shades;                     ///< of all diced polygons
   std::vector<VolumeFace> volume_faces;          ///< of all volumes

@@ -41,7 +41,8 @@ enum {
   KAGE_TOKEN_TOP_Y = 35, /**< likewise */
   KAGE_TOKEN_BOTTOM_X = 36, /**< likewise */
   KAGE_TOKEN_BOTTOM_Y = 37, /**< likewise */
-  KAGE_TOKEN_FIELDS = 38 /**< how many there are */
+  KAGE_TOKEN_SAMPLES = 38, /**< of a light, all that it has */
+  KAGE_TOKEN_FIELDS = 39 /**< how many there are */
 };
 
 /** Fields of a pixel's state. */
@@ -52,7 +53,8 @@ enum {
   KAGE_PIXEL_DSF = 5, /**< 0 .. 2^DSF_BITS - 1 */
   KAGE_PIXEL_FSF = 6, /**< 0 or 1 */
   KAGE_PIXEL_COUNT = 7, /**< up to 14: by light */
-  KAGE_PIXEL_FIELDS = 15 /**< how many there are */
+  KAGE_PIXEL_SERVED = 15, /**< 0 or 1 */
+  KAGE_PIXEL_FIELDS = 16 /**< how many there are */
 };
 
 /** Kinds of tokens, as kage_golden_token_kind() gives them. */
@@ -69,7 +71,7 @@ enum {
   KAGE_KIND_IF = 9, /**< the eye is inside the volume for the whole line */
   KAGE_KIND_EV = 10, /**< end of a volume */
   KAGE_KIND_ES = 11, /**< end of a light sample */
-  KAGE_KIND_RESOLVE = 12, /**< darken what is in shadow */
+  KAGE_KIND_RESOLVE = 12, /**< darken what is in shadow; with LINEAR_BITS: of the light whose opaque spans follow so many samples have been tried */
   KAGE_KIND_TP = 13, /**< translucent span, back to front */
   KAGE_KIND_EOL = 14, /**< end of the line with number y */
   KAGE_KIND_END = 15, /**< end of the frame */

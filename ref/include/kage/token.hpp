@@ -21,9 +21,10 @@ struct SpanToken {
   int xr = 0;  ///< half open, xl <= xr <= width
   /// At xl, in 2^-Z_FRAC, half an LSB included: -2^(Z_BITS + Z_FRAC + 1) .. 2^(Z_BITS + Z_FRAC + 1) - 1.
   std::int64_t z = 0;
-  std::int64_t dz = 0;   ///< per pixel, in the unit and the range of `z`
-  int w = 0;             ///< SP: signed multiplicity, -2^DSF_BITS .. 2^DSF_BITS - 1
-  int normal_class = 0;  ///< OP: 0 is unlit; without a table 1 is lit, with one the table's class
+  std::int64_t dz = 0;  ///< per pixel, in the unit and the range of `z`
+  int w = 0;            ///< SP: signed multiplicity, -2^DSF_BITS .. 2^DSF_BITS - 1
+  int normal_class =
+      0;  ///< OP: 0 is unlit; without a table 1 is lit, with one the table's class; not with linear light
   /// By channel, at xl: with SMOOTH in 2^-COLOR_FRAC, half an LSB included, -2^(COLOR_FRAC + 9) .. 2^(COLOR_FRAC + 9) -
   /// 1; else 0 .. 255.
   std::array<std::int32_t, 3> color{};
@@ -34,15 +35,16 @@ struct SpanToken {
 /// FACE and SEG: an entry of a unit's face table, and a run of pixels of one face (docs/stream.md, "Units and the
 /// tree").
 struct SegmentToken {
-  int unit = 0;                         ///< 0 .. UNITS - 1
-  int face = 0;                         ///< SEG: 2^FACE_BITS - 1 is blank
-  std::int64_t z = 0;                   ///< SEG: at the first pixel, as a span's; not for blank ones
-  int dx = 0;                           ///< SEG: pixels, at least 1
-  bool sync = false;                    ///< SEG: first of its unit's line
-  int index = 0;                        ///< FACE: draw index of the polyhedron
-  int normal_class = 0;                 ///< FACE: as OP's
-  std::int64_t dz = 0;                  ///< FACE: depth per pixel
-  std::array<std::int32_t, 3> color{};  ///< FACE: 0 .. 255
+  int unit = 0;          ///< 0 .. UNITS - 1
+  int face = 0;          ///< SEG: 2^FACE_BITS - 1 is blank
+  std::int64_t z = 0;    ///< SEG: at the first pixel, as a span's; not for blank ones
+  int dx = 0;            ///< SEG: pixels, at least 1
+  bool sync = false;     ///< SEG: first of its unit's line
+  int index = 0;         ///< FACE: draw index of the polyhedron
+  int normal_class = 0;  ///< FACE: as OP's
+  std::int64_t dz = 0;   ///< FACE: depth per pixel
+  /// FACE: 0 .. 255, or with linear light 0 .. 2^LINEAR_BITS - 1.
+  std::array<std::int32_t, 3> color{};
 };
 
 /// TABLE: what a pixel of a class loses for each shadowed sample of a light.
@@ -128,7 +130,9 @@ class TokenWriter {
   /// @param xr one past its last
   /// @param light 0 .. LIGHTS - 1
   void es(int xl, int xr, int light);
-  void resolve();  ///< RESOLVE
+  /// RESOLVE.
+  /// @param samples of the light whose opaque spans follow, with linear light and counters; left out otherwise
+  void resolve(int samples = 0);
   /// TP.
   /// @param span what it says
   void tp(const SpanToken& span);
@@ -171,6 +175,7 @@ struct Token {
   TableToken table;         ///< TABLE; its light is also that of ES and AT
   PolygonToken polygon;     ///< POLYGON, EDGE, GRADIENT and AT
   std::uint32_t shade = 0;  ///< SHADE: 0 .. 2^SHADE_FRAC
+  int samples = 0;          ///< RESOLVE with linear light and counters: of the light, 0 .. 2^COUNT_BITS - 1
   int y = 0;                ///< EOL
 };
 

@@ -67,7 +67,8 @@ typedef struct packed {
   logic seg;  // it is a SEG
   logic seg_goes;  // a good SEG that its unit takes
   logic completes;  // a SEG that ends its unit's line
-  logic resolved;  // the token before it in its line is a RESOLVE
+  logic resolved;  // a RESOLVE is the newest before it in its line, but for opaque spans of linear light
+  logic [PassBits-1:0] pass;  // of the line's last RESOLVE, as the command of that OP has it
   logic [DsfBits-1:0] bias;  // as the token finds it
 } verdict_t;
 
@@ -131,7 +132,7 @@ typedef struct packed {
 typedef struct packed {
   logic [Z_BITS-1:0] z;  // all ones: none
   logic [CLASS_BITS-1:0] normal_class;  // its class
-  logic [RgbBits-1:0] color;  // its colour
+  logic [PixelRgbBits-1:0] color;  // its colour
   logic last;  // of its line
 } tree_pixel_t;
 

@@ -59,6 +59,9 @@ end
 if (CLASSIC < 0 || CLASSIC > 1) begin : gen_bad_classic
   `KAGE_ILLEGAL("CLASSIC must be 0 .. 1")
 end
+if (LINEAR_BITS != 0 && LINEAR_BITS != 10 && LINEAR_BITS != 11 && LINEAR_BITS != 12 && LINEAR_BITS != 13 && LINEAR_BITS != 14) begin : gen_bad_linear_bits
+  `KAGE_ILLEGAL("LINEAR_BITS must be one of 0 10 11 12 13 14")
+end
 if (ARRANGEMENT < 0 || ARRANGEMENT > 1) begin : gen_bad_arrangement
   `KAGE_ILLEGAL("ARRANGEMENT must be 0 .. 1")
 end
@@ -85,6 +88,15 @@ if (!(CLASS_BITS == 1 || COUNT_BITS > 0)) begin : gen_bad_class_alone
 end
 if (!(LIGHTS == 1 || (COUNT_BITS > 0 && CLASS_BITS > 1))) begin : gen_bad_lights_alone
   `KAGE_ILLEGAL("LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table")
+end
+if (!(LINEAR_BITS == 0 || (DSF_BITS > 0 && SMOOTH > 0 && LIGHTS == 1 && CLASS_BITS == 1))) begin : gen_bad_linear_alone
+  `KAGE_ILLEGAL("LINEAR_BITS > 0 needs DSF_BITS > 0, SMOOTH, LIGHTS 1 and CLASS_BITS 1: light after light has one counter and no table")
+end
+if (!(LINEAR_BITS == 0 || ACTIVE == 0)) begin : gen_bad_linear_spans
+  `KAGE_ILLEGAL("LINEAR_BITS > 0 needs ACTIVE 0: light after light comes by spans")
+end
+if (!(LINEAR_BITS + COUNT_BITS <= 8 + COLOR_FRAC || LINEAR_BITS == 0)) begin : gen_bad_linear_frac
+  `KAGE_ILLEGAL("LINEAR_BITS > 0 needs COLOR_FRAC of LINEAR_BITS + COUNT_BITS - 8 at least: a sample's part of linear light")
 end
 if (!(COLOR_FRAC == 0 || SMOOTH > 0)) begin : gen_bad_color_frac_alone
   `KAGE_ILLEGAL("COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction")

@@ -18,9 +18,10 @@ localparam logic [Marks-1:0] MarkSample = Marks'(COUNT_BITS > 0 ? 2 : 0);  // a 
 // Bit p: a token of this kind may stand in phase p. For what is not of a line line_phase does not say.
 function automatic logic [Phases-1:0] order_in(input logic [3:0] kind);
   unique case (kind)
-    KindOp: order_in = 4'b0001;
-    KindSp, KindNc, KindIf: order_in = 4'b0011;
-    KindEv, KindEs, KindResolve: order_in = 4'b0010;
+    KindOp: order_in = LINEAR_BITS > 0 ? 4'b0101 : 4'b0001;
+    KindSp, KindNc, KindIf: order_in = LINEAR_BITS > 0 ? 4'b0111 : 4'b0011;
+    KindEv, KindEs: order_in = 4'b0010;
+    KindResolve: order_in = LINEAR_BITS > 0 ? 4'b0111 : 4'b0010;
     KindTp, KindEol: order_in = 4'b1101;
     default: order_in = '1;
   endcase

@@ -21,4 +21,5 @@ parameter int DX_BITS = 9,
 parameter int SEG_BITS = 7,
 parameter int ORDER_BITS = 8,
 parameter int CLASSIC = 0,
+parameter int LINEAR_BITS = 0,
 /* verilator lint_on UNUSEDPARAM */

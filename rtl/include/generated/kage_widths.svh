@@ -24,7 +24,8 @@ localparam int CrossingBits = 17,  // of an edge's crossing in pixels, signed, a
 localparam int EdgeRestBits = 24,  // of an edge's remainders and height in subpixels
 localparam int EndLineBits = 17,  // of the line behind an edge's last, signed
 localparam bit HasTable = CLASS_BITS > 1,  // a light's share is looked up in a table, by class
-localparam bit HasLoads = TRANSLUCENCY > 0 && COUNT_BITS > 0,  // colours come back: a line with samples leaves to be darkened before its first TP
+localparam bit HasLoads = TRANSLUCENCY > 0 && (COUNT_BITS > 0 || LINEAR_BITS > 0),  // colours come back: a line with samples leaves to be darkened, or one with linear light to be displayed, before its first TP
+localparam bit HasPasses = LINEAR_BITS > 0,  // a line's lights are added one after the other
 localparam logic [Z_BITS-1:0] ClearDepth = Z_BITS'((1 << Z_BITS) - 1),  // a pixel's depth where nothing has been drawn
 localparam logic [Z_BITS-1:0] MostDepth = Z_BITS'((1 << Z_BITS) - 2),  // the greatest depth that is drawn; the least is 1
 localparam logic [FACE_BITS-1:0] BlankFace = FACE_BITS'((1 << FACE_BITS) - 1),  // the face of a segment that shows nothing
@@ -42,46 +43,57 @@ localparam int WeightFieldBits = DSF_BITS > 0 ? DSF_BITS + 1 : 0,  // the weight
 localparam int AlphaFieldBits = TRANSLUCENCY > 0 ? 8 : 0,  // a polygon's alpha
 localparam int SegmentDepthBits = CLASSIC > 0 ? 15 : DepthBits,  // a segment's depth; the paper's is unsigned
 localparam int SmoothBits = 10 + COLOR_FRAC,  // one channel of a colour that changes along its span, and of its slope
+localparam int PixelLevelBits = LINEAR_BITS > 0 ? LINEAR_BITS : 8,  // one channel of a colour that a pixel holds
+localparam int LaneLevelBits = LINEAR_BITS > 0 ? LINEAR_BITS + COUNT_BITS : 8,  // one channel of a span's colour at a pixel
+localparam int ServedBits = LINEAR_BITS > 0 ? 1 : 0,  // the pass of a pixel's newest light
+localparam int PassSamplesBits = LINEAR_BITS > 0 ? COUNT_BITS : 0,  // the samples of a light that RESOLVE tells
 localparam int RampBits = SMOOTH > 0 ? SmoothBits : 8,  // one channel of a span's colour
 localparam int SlopeFieldBits = SMOOTH > 0 ? SmoothBits : 0,  // one channel of a span's colour slope
 localparam int ColorBits = CHANNELS * RampBits,  // a span's colour
 localparam int SlopeBits = SMOOTH > 0 ? ColorBits : 1,  // a span's colour slope, on a bus
 localparam int DsfBits = DSF_BITS > 0 ? DSF_BITS : 1,  // shadow counter, bias
-localparam int ClassBits = DSF_BITS > 0 ? CLASS_BITS : 0,  // the class of a pixel, a face, and the tree's pixel
+localparam int ClassBits = DSF_BITS > 0 && LINEAR_BITS == 0 ? CLASS_BITS : 0,  // the class of a pixel, a face, and the tree's pixel
 localparam int LightBits = LIGHTS > 4 ? 3 : (LIGHTS > 2 ? 2 : 1),  // a light's number
 localparam int LightAt = FSF > 0 ? 0 : DsfBits,  // ES's light in its command's count; below it, without FSF, the bias
 localparam int SampleEndBits = LIGHTS > 1 ? LightAt + LightBits : 1,  // ES in its command's count
+localparam int PassRestBits = COUNT_BITS > 0 && LINEAR_BITS > 0 ? COUNT_BITS : DsfBits,  // samples, or without counters bias, of an OP behind a RESOLVE
+localparam int PassBits = LINEAR_BITS > 0 ? 1 + PassRestBits : 1,  // of an OP behind a RESOLVE in its command's count: {samples, or without counters bias, pass}
+localparam int LightCountBits = SampleEndBits > PassBits ? SampleEndBits : PassBits,  // ES, or an OP behind a RESOLVE, in its command's count
 localparam int PlainCountBits = DsfBits > CLASS_BITS ? DsfBits : CLASS_BITS,  // w, bias or class in a command's count
-localparam int CountBits = PlainCountBits > SampleEndBits ? PlainCountBits : SampleEndBits,  // a command's count: w, bias, class, or of ES {light, bias}
-localparam int ShareBits = TRANSLUCENCY == 0 ? 1 : (COUNT_BITS == 0 && SHADE_FRAC > 7 ? FactorBits : 8),  // TP's alpha, or RESOLVE's shade
-localparam int RgbBits = 8 * CHANNELS,  // one pixel's colour
+localparam int CountBits = PlainCountBits > LightCountBits ? PlainCountBits : LightCountBits,  // a command's count: w, bias, class, of ES {light, bias}, or the pass
+localparam int ShareBits = TRANSLUCENCY == 0 ? 1 : (COUNT_BITS == 0 && LINEAR_BITS == 0 && SHADE_FRAC > 7 ? FactorBits : 8),  // TP's alpha, or RESOLVE's shade
+localparam int RgbBits = 8 * CHANNELS,  // one pixel's colour as it is displayed
+localparam int PixelRgbBits = CHANNELS * PixelLevelBits,  // one pixel's colour as it is held
+localparam int LaneRgbBits = CHANNELS * LaneLevelBits,  // a span's colour at one pixel
 localparam int LookBits = ClassBits + WeightFieldBits + AlphaFieldBits + RgbBits,  // a polygon's class, weight, alpha and flat colour, as POLYGON has them
 localparam int GradientsBits = SMOOTH > 0 ? CHANNELS * 3 * ColorPlaneBits : 0,  // the planes of a polygon's colour: of each channel value, right and down
 localparam int TallyBits = LIGHTS * COUNT_BITS,  // a pixel's counters
+localparam int ExitTallyBits = LINEAR_BITS > 0 ? 0 : TallyBits,  // the counters of a pixel that leaves
 localparam int ExitClassBits = HasTable ? CLASS_BITS : 0,  // the class of a pixel that leaves
-localparam int DarkBits = COUNT_BITS == 0 && DSF_BITS > 0 ? 1 : 0,  // whether a pixel that leaves is in shadow, where no counts say it
+localparam int DarkBits = COUNT_BITS == 0 && DSF_BITS > 0 && LINEAR_BITS == 0 ? 1 : 0,  // whether a pixel that leaves is in shadow, where no counts say it
 localparam int EntryShareBits = CHANNELS * FactorBits,  // an entry of the light table
-localparam int LightStages = COUNT_BITS == 0 ? 0 : (HasTable ? 5 : 2),  // clocks of light_resolve
+localparam int LightStages = LINEAR_BITS > 0 ? 8 : (COUNT_BITS == 0 ? 0 : (HasTable ? 5 : 2)),  // clocks of light_resolve, or of display_curve
 localparam int UnitBits = UNITS > 32 ? 6 : (UNITS > 16 ? 5 : (UNITS > 8 ? 4 : (UNITS > 4 ? 3 : (UNITS > 2 ? 2 : 1)))),  // an expansion unit's number
 localparam int KeyBits = Z_BITS + ORDER_BITS,  // what the compare tree compares: {Z, index}
-localparam int PixelBits = Z_BITS + RgbBits + ClassBits + DSF_BITS + FSF + TallyBits,  // a pixel's state
-localparam int ExitBits = RgbBits + 1 + ExitClassBits + TallyBits + DarkBits,  // a pixel that leaves
-localparam int EntryBits = ORDER_BITS + ClassBits + DepthBits + RgbBits,  // a face in its unit's table, as FACE has it from index on
+localparam int PixelBits = Z_BITS + PixelRgbBits + ClassBits + DSF_BITS + FSF + TallyBits + ServedBits,  // a pixel's state
+localparam int ExitBits = PixelRgbBits + 1 + ExitClassBits + ExitTallyBits + DarkBits,  // a pixel that leaves
+localparam int EntryBits = ORDER_BITS + ClassBits + DepthBits + PixelRgbBits,  // a face in its unit's table, as FACE has it from index on
 localparam int WalkedEdgeBits = CrossingBits + CrossingBits + EdgeRestBits + EdgeRestBits + EdgeRestBits,  // an edge on its way down, as hls/kernels/edge.hpp has it
 localparam int ActiveBits = PlaceBits + EndLineBits + WalkedEdgeBits + WalkedEdgeBits + LookBits + PlaneBits + PlaneBits + PlaneBits + GradientsBits,  // a polygon that the front end keeps from line to line
-localparam int PointBits = ClassBits + RgbBits + ORDER_BITS + Z_BITS,  // a pixel in the compare tree, with its key highest
+localparam int PointBits = ClassBits + PixelRgbBits + ORDER_BITS + Z_BITS,  // a pixel in the compare tree, with its key highest
 // Words whose fields a configuration may lack: where they are; 0, and not to be read, if they are not.
 localparam int PixelZAt = 0,  // its depth
 localparam int PixelColorAt = Z_BITS,  // its colour
-localparam int PixelClassAt = ClassBits > 0 ? Z_BITS + RgbBits : 0,  // its class
-localparam int PixelDsfAt = DSF_BITS > 0 ? Z_BITS + RgbBits + ClassBits : 0,  // the shadow counter
-localparam int PixelFsfAt = FSF > 0 ? Z_BITS + RgbBits + ClassBits + DSF_BITS : 0,  // the flag
-localparam int PixelCountsAt = TallyBits > 0 ? Z_BITS + RgbBits + ClassBits + DSF_BITS + FSF : 0,  // its samples in shadow, light 0 lowest
+localparam int PixelClassAt = ClassBits > 0 ? Z_BITS + PixelRgbBits : 0,  // its class
+localparam int PixelDsfAt = DSF_BITS > 0 ? Z_BITS + PixelRgbBits + ClassBits : 0,  // the shadow counter
+localparam int PixelFsfAt = FSF > 0 ? Z_BITS + PixelRgbBits + ClassBits + DSF_BITS : 0,  // the flag
+localparam int PixelCountsAt = TallyBits > 0 ? Z_BITS + PixelRgbBits + ClassBits + DSF_BITS + FSF : 0,  // its samples in shadow, light 0 lowest
+localparam int PixelServedAt = ServedBits > 0 ? Z_BITS + PixelRgbBits + ClassBits + DSF_BITS + FSF + TallyBits : 0,  // the pass of its newest light, modulo 2
 localparam int ExitColorAt = 0,  // its colour
-localparam int ExitCoveredAt = RgbBits,  // it has been drawn
-localparam int ExitClassAt = ExitClassBits > 0 ? RgbBits + 1 : 0,  // for the table
-localparam int ExitCountsAt = TallyBits > 0 ? RgbBits + 1 + ExitClassBits : 0,  // 0 where the class is
-localparam int ExitDarkAt = DarkBits > 0 ? RgbBits + 1 + ExitClassBits + TallyBits : 0,  // it is lit and in shadow
+localparam int ExitCoveredAt = PixelRgbBits,  // it has been drawn
+localparam int ExitClassAt = ExitClassBits > 0 ? PixelRgbBits + 1 : 0,  // for the table
+localparam int ExitCountsAt = ExitTallyBits > 0 ? PixelRgbBits + 1 + ExitClassBits : 0,  // 0 where the class is
+localparam int ExitDarkAt = DarkBits > 0 ? PixelRgbBits + 1 + ExitClassBits + ExitTallyBits : 0,  // it is lit and in shadow
 localparam int EntryIndexAt = 0,  // the polyhedron's
 localparam int EntryClassAt = ClassBits > 0 ? ORDER_BITS : 0,  // its class
 localparam int EntryDzAt = ORDER_BITS + ClassBits,  // a pixel
@@ -102,25 +114,26 @@ localparam int ActiveDownAt = PlaceBits + EndLineBits + WalkedEdgeBits + WalkedE
 localparam int ActiveGradientsAt = GradientsBits > 0 ? PlaceBits + EndLineBits + WalkedEdgeBits + WalkedEdgeBits + LookBits + PlaneBits + PlaneBits + PlaneBits : 0,  // of its colour, channel 0 lowest
 localparam int PointClassAt = 0,  // its class
 localparam int PointColorAt = ClassBits,  // its colour
-localparam int PointIndexAt = ClassBits + RgbBits,  // the polyhedron's
-localparam int PointZAt = ClassBits + RgbBits + ORDER_BITS,  // its depth
+localparam int PointIndexAt = ClassBits + PixelRgbBits,  // the polyhedron's
+localparam int PointZAt = ClassBits + PixelRgbBits + ORDER_BITS,  // its depth
 // The buses of kage_buses.svh.
 localparam int FactsBits = CodeBits + 1 + 1,  // facts that a token gives by itself
 localparam int FlagsBits = 1 + 1 + 1 + 1 + 1 + CodeBits,  // facts about a token from its place in the frame
 localparam int RoleBits = 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + EndLineBits + 1,  // role of a token in the front end
 localparam int MadeSpanBits = 1 + X_BITS + X_BITS + 1 + LookBits + DepthBits + DepthBits + ColorBits + SlopeBits,  // a polygon's span on a line
-localparam int VerdictBits = 1 + 1 + 1 + CodeBits + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + DsfBits,  // verdict on a token, found before it is acted on
+localparam int VerdictBits = 1 + 1 + 1 + CodeBits + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + 1 + PassBits + DsfBits,  // verdict on a token, found before it is acted on
 localparam int CommandBits = KindBits + X_BITS + X_BITS + CountBits + DepthBits + DepthBits + ColorBits + SlopeBits + ShareBits,  // command to the pixels of a range
 localparam int LineBits = 1 + 1 + 1 + 1 + X_BITS + RgbBits + FactorBits,  // a line, in the order of the lines
 localparam int TableEntryBits = CLASS_BITS + LightBits + EntryShareBits,  // an entry of the light table
 localparam int LoadBits = X_BITS + RgbBits + 1,  // a pixel's colour that comes back
 localparam int TreeCallBits = 1 + 1 + 1 + 1,  // events of a clock for the tree
 localparam int PieceBits = UnitBits + FACE_BITS + EntryBits + DepthBits + DX_BITS + 1,  // a FACE or a SEG
-localparam int TreePixelBits = Z_BITS + CLASS_BITS + RgbBits + 1,  // the nearest face at a pixel of the tree's line
+localparam int TreePixelBits = Z_BITS + CLASS_BITS + PixelRgbBits + 1,  // the nearest face at a pixel of the tree's line
 localparam int ErrorBits = CodeBits + 32 + 16 + 32 + UnitNumberBits,  // a frame's first error
 localparam int BehindBits = UnitNumberBits + LineNumberBits,  // the unit that is behind
 // Commands without token, by kinds that never become commands.
 localparam logic [KindBits-1:0] CmdLoad = KindBits'(1),  // a line's pixel comes back
 localparam logic [KindBits-1:0] CmdOut = KindBits'(2),  // a line's pixels leave but stay
+localparam logic [KindBits-1:0] CmdLight = KindBits'(9),  // an OP behind a RESOLVE of linear light: the light comes to the pixels
 /* verilator lint_on UNUSEDPARAM */
 // verilog_lint: waive-stop line-length

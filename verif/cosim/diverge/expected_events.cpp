@@ -97,12 +97,14 @@ void ExpectedEvents::header(std::span<const std::uint32_t> words, const LineView
   shade_ = 0;
   given_.assign(static_cast<std::size_t>(config_.units), 0);
   resolved_ = painted_ = false;
+  pass_.reset();
   bias_ = 0;
   token_words(words, false);
 }
 
-std::uint64_t ExpectedEvents::packed(const std::array<std::uint8_t, 3>& color) const {
-  return packed_color(color, config_.channels);
+// A colour as pixels hold it.
+std::uint64_t ExpectedEvents::held(const std::array<std::uint16_t, 3>& color) const {
+  return packed_levels(color, derived::pixel_level_bits(config_), config_.channels);
 }
 
 void ExpectedEvents::command(int kind, int xl, int xr, int step) {
@@ -117,12 +119,15 @@ void ExpectedEvents::command(int kind, int xl, int xr, int step) {
 void ExpectedEvents::span_command(const Token& t, const LineView& line) {
   const SpanToken& s = t.span;
   if (s.xl == s.xr) return;
-  command(number(t.kind), s.xl, s.xr, of_command);
+  command(kind_of_command(t.kind), s.xl, s.xr, of_command);
   ExpectedEvent& e = newest(Stage::command, 0);
   using namespace at::command;
   switch (t.kind) {
     case Kind::OP:
-      e.expect(count, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(s.normal_class) : 0);
+      if (config_.linear_bits == 0)
+        e.expect(count, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(s.normal_class) : 0);
+      else if (pass_)
+        e.expect(count, *pass_);
       break;
     case Kind::SP:
     case Kind::NC:
@@ -152,6 +157,10 @@ void ExpectedEvents::span_command(const Token& t, const LineView& line) {
   }
 }
 
+int ExpectedEvents::kind_of_command(Kind kind) const {
+  return kind == Kind::OP && pass_ ? number(derived::kCommandLight) : number(kind);
+}
+
 void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
   ExpectedEvent e = event(Stage::pixel, step);
   e.unit = e.x = x;
@@ -160,10 +169,11 @@ void ExpectedEvents::touch(int kind, int x, const PixelState& after, int step) {
     counts |= std::uint64_t{after.counts[static_cast<std::size_t>(l)]} << l * config_.count_bits;
   e.expect(at::pixel::kind, static_cast<std::uint64_t>(kind));
   e.expect(at::pixel::z, after.z);
-  e.expect(at::pixel::color, packed(after.color));
+  e.expect(at::pixel::color, held(after.color));
   e.expect(at::pixel::normal_class, config_.dsf_bits > 0 ? after.normal_class : 0);
   e.expect(at::pixel::counts, counts);
-  if (!painted_ || config_.count_bits == 0) {  // with counters nobody asks for the flags of a painted line
+  if (config_.linear_bits > 0) e.expect(at::pixel::served, after.served);
+  if (!painted_ || !derived::has_loads(config_)) {  // nobody asks for the flags of a line that has come back
     e.expect(at::pixel::dsf, after.dsf);
     e.expect(at::pixel::fsf, after.fsf);
   }
@@ -188,7 +198,7 @@ void ExpectedEvents::face_event(const SegmentToken& f) {
   e.expect(at::face::index, static_cast<std::uint64_t>(f.index));
   e.expect(at::face::normal_class, config_.dsf_bits > 0 ? static_cast<std::uint64_t>(f.normal_class) : 0);
   e.expect(at::face::dz, low(f.dz, depth_bits_));
-  e.expect(at::face::color, packed_color(f.color, config_.channels));
+  e.expect(at::face::color, packed_levels(f.color, derived::pixel_level_bits(config_), config_.channels));
   put(e);
 }
 
@@ -229,20 +239,25 @@ void ExpectedEvents::before(std::uint32_t index, const Token& t, std::span<const
       break;
     case Kind::RESOLVE:
       bias_ = line.bias();
-      before_resolve_ = all_leaving(line);
+      if (config_.linear_bits > 0)
+        pass_ = (config_.count_bits > 0 ? static_cast<std::uint64_t>(t.samples) : bias_) << 1 |
+                ((pass_.value_or(0) & 1U) ^ 1U);
+      else
+        before_resolve_ = all_leaving(line);
       resolved_ = true;
       break;
     case Kind::TP:
-      if (!resolved_) bias_ = line.bias();
+      if (!resolved_ || config_.linear_bits > 0) bias_ = line.bias();
       if (!painted_) paint(line);
       span_command(t, line);
       break;
     case Kind::EOL:
-      if (!resolved_) bias_ = line.bias();
+      if (!resolved_ || config_.linear_bits > 0) bias_ = line.bias();
       state(bias_, !painted_);
       end_line(&line);
       break;
     default:
+      if (info_of(t.kind).weight) resolved_ = false;
       if (info_of(t.kind).ends) state(line.bias(), t.kind == Kind::EV || config_.fsf == 0);
       if (info_of(t.kind).range) span_command(t, line);
   }
@@ -268,7 +283,7 @@ void ExpectedEvents::tree_events(const LineView& line) {
       e.expect(at::unit::z, p.z);
       if (p.z != clear) {
         e.expect(at::unit::index, p.index);
-        e.expect(at::unit::color, packed(p.color));
+        e.expect(at::unit::color, held(p.color));
         e.expect(at::unit::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
       }
       put(e);
@@ -278,12 +293,12 @@ void ExpectedEvents::tree_events(const LineView& line) {
     e.x = x;
     e.expect(at::tree::z, p.z);
     if (p.z != clear) {
-      e.expect(at::tree::color, packed(p.color));
+      e.expect(at::tree::color, held(p.color));
       e.expect(at::tree::normal_class, config_.dsf_bits > 0 ? p.normal_class : 0);
     }
     put(e);
     touch(number(Kind::TREE), x, line.pixel(x), of_pixel);
-    came_to_pixel(x, p.z, p.z == clear ? std::nullopt : std::optional(packed(p.color)));
+    came_to_pixel(x, p.z, p.z == clear ? std::nullopt : std::optional(held(p.color)));
   }
 }
 
@@ -297,9 +312,9 @@ void ExpectedEvents::after(std::uint32_t /*index*/, const Token& t, const LineVi
       const KindInfo& info = info_of(t.kind);
       if (!info.range) break;
       for (int x = s.xl; x < s.xr; ++x) {
-        touch(number(t.kind), x, line.pixel(x), of_pixel);
+        touch(kind_of_command(t.kind), x, line.pixel(x), of_pixel);
         came_to_pixel(x, info.depth ? std::optional<std::uint64_t>(span_depth(config_, s, x)) : std::nullopt,
-                      info.color ? std::optional(packed(span_color(config_, s, x))) : std::nullopt);
+                      info.color ? std::optional(held(span_color(config_, s, x, t.kind == Kind::TP))) : std::nullopt);
       }
     }
   }

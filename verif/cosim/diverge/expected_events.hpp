@@ -128,6 +128,7 @@ class ExpectedEvents : public CoreObserver {
   void tree_events(const LineView& line);
   void came_to_pixel(int x, std::optional<std::uint64_t> z, std::optional<std::uint64_t> color);
   void touch(int kind, int x, const PixelState& after, int step);
+  [[nodiscard]] int kind_of_command(Kind kind) const;
 
   // Events of a whole line: expected_line.cpp.
   void state(std::uint64_t bias, bool matters);
@@ -141,7 +142,7 @@ class ExpectedEvents : public CoreObserver {
   [[nodiscard]] std::vector<Leaving> all_leaving(const LineView& line) const;
 
   [[nodiscard]] bool clear(const PixelState& s) const { return s.z == derived::clear_depth(config_); }
-  [[nodiscard]] std::uint64_t packed(const std::array<std::uint8_t, 3>& color) const;
+  [[nodiscard]] std::uint64_t held(const std::array<std::uint16_t, 3>& color) const;
 
   Config config_;
   std::uint32_t unwatched_;
@@ -163,6 +164,7 @@ class ExpectedEvents : public CoreObserver {
   std::vector<int> given_;  // pixels of the line that a unit is being given
 
   // State of the line:
+  std::optional<std::uint64_t> pass_;  // behind a RESOLVE of linear light: what a light's command has as its count
   bool resolved_ = false;
   bool painted_ = false;
   std::uint64_t bias_ = 0;                                          // of the last that had one

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "contract/derived.hpp"
+#include "contract/display_curve.hpp"
 #include "cosim/diverge/expected_events.hpp"
 #include "number/packed_color.hpp"
 
@@ -11,8 +12,9 @@ namespace kage::cosim {
 
 ExpectedEvents::Leaving ExpectedEvents::leaving(const PixelState& s, bool resolved) const {
   Leaving l;
-  l.color = packed(s.color);
+  l.color = held(s.color);
   l.covered = !clear(s);
+  if (config_.linear_bits > 0) return l;
   if (config_.count_bits > 0) {
     l.normal_class = s.normal_class;
     for (int i = 0; i < config_.lights && s.normal_class != 0; ++i)
@@ -81,10 +83,13 @@ void ExpectedEvents::state(std::uint64_t bias, bool matters) {
 PixelState ExpectedEvents::painted(const PixelState& before) const {
   PixelState s = before;
   if (clear(s)) {
-    const auto background = unpacked_color(background_);
-    for (unsigned c = 0; c < 3; ++c) s.color[c] = background[c];
+    s.color = unpacked_levels(background_, 8);
+  } else if (config_.linear_bits > 0) {
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config_.channels); ++c)
+      s.color[c] = displayed(s.color[c], config_.linear_bits);
   }
   s.dsf = s.fsf = 0;  // as a RESOLVE leaves them
+  s.counts = {};
   return s;
 }
 
@@ -93,7 +98,7 @@ void ExpectedEvents::load_back(int x, const PixelState& s) {
   ExpectedEvent e = event(Stage::load, of_load);
   e.x = x;
   e.expect(at::load::x, static_cast<std::uint64_t>(x));
-  e.expect(at::load::color, packed(s.color));
+  e.expect(at::load::color, packed_color(s.color, config_.channels));
   put(e);
   command(number(derived::kCommandLoad), x, x + 1, of_load_command);
   ExpectedEvent& c = newest(Stage::command, 0);
@@ -107,12 +112,13 @@ void ExpectedEvents::load_back(int x, const PixelState& s) {
 
 // Events of frame_control before a line's first TP.
 void ExpectedEvents::paint(const LineView& line) {
-  state(bias_, config_.count_bits == 0);
-  if (config_.count_bits > 0) newest(Stage::state, 0).look_at(at::state::resolved);
-  if (config_.count_bits > 0 && resolved_) {
+  const bool linear = config_.linear_bits > 0;
+  state(bias_, !derived::has_loads(config_));
+  if (derived::has_loads(config_) && !linear) newest(Stage::state, 0).look_at(at::state::resolved);
+  if (linear || (config_.count_bits > 0 && resolved_)) {
     command(number(derived::kCommandOut), 0, width_, of_command);
     line_event(false, true, of_command);
-    leave(before_resolve_, false);
+    leave(linear ? all_leaving(line) : before_resolve_, false);
     painted_ = true;
     for (int x = 0; x < width_; ++x) load_back(x, painted(line.pixel(x)));
     return;
@@ -139,10 +145,11 @@ void ExpectedEvents::end_line(const LineView* line) {
   if (line == nullptr)
     leave({}, true);
   else
-    leave(resolved_ && !painted_ ? before_resolve_ : all_leaving(*line), false);
+    leave(resolved_ && !painted_ && config_.linear_bits == 0 ? before_resolve_ : all_leaving(*line), false);
   eol_token_.emplace_back(token_, nth_);
   ++y_;
   resolved_ = painted_ = false;
+  pass_.reset();
   bias_ = 0;
 }
 
@@ -155,7 +162,7 @@ void ExpectedEvents::line(int y, std::span<const std::uint8_t> pixels) {
     e.x = x;
     std::array<std::uint8_t, 3> color{};
     std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(x) * channels, channels, color.begin());
-    e.expect(at::out::color, packed(color));
+    e.expect(at::out::color, packed_color(color, config_.channels));
     e.expect(at::out::tuser, x == 0 && y == 0 ? 1 : 0);
     e.expect(at::out::tlast, x + 1 == width_ ? 1 : 0);
     put(e);

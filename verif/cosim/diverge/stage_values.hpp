@@ -60,7 +60,7 @@ inline constexpr std::array<StageInfo, kStages> kStageInfo{{
     {"pixel of the compare tree", {{{"z", ValueText::depth}, {"color", ValueText::color}, {"class", ValueText::number}}}},
     {"line to the way out", {{{"first", ValueText::number}, {"blank", ValueText::number}, {"load", ValueText::number}, {"painted", ValueText::number}, {"width", ValueText::number}, {"background", ValueText::color}, {"shade", ValueText::number}}}},
     {"command to the pixels", {{{"kind", ValueText::kind}, {"xl", ValueText::number}, {"xr", ValueText::number}, {"count", ValueText::number}, {"z", ValueText::ramp}, {"dz", ValueText::ramp}, {"share", ValueText::number}, {"color 0", ValueText::number}, {"color 1", ValueText::number}, {"color 2", ValueText::number}, {"dcolor 0", ValueText::number}, {"dcolor 1", ValueText::number}, {"dcolor 2", ValueText::number}}}},
-    {"state of a pixel", {{{"kind", ValueText::kind}, {"z that came", ValueText::number}, {"color that came", ValueText::color}, {"z", ValueText::depth}, {"color", ValueText::color}, {"class", ValueText::number}, {"dsf", ValueText::number}, {"fsf", ValueText::number}, {"counts", ValueText::number}}}},
+    {"state of a pixel", {{{"kind", ValueText::kind}, {"z that came", ValueText::number}, {"color that came", ValueText::color}, {"z", ValueText::depth}, {"color", ValueText::color}, {"class", ValueText::number}, {"dsf", ValueText::number}, {"fsf", ValueText::number}, {"counts", ValueText::number}, {"served", ValueText::number}}}},
     {"pixel that leaves the line", {{{"color", ValueText::color}, {"covered", ValueText::number}, {"dark", ValueText::number}, {"class", ValueText::number}, {"counts", ValueText::number}}}},
     {"color that comes back to a pixel", {{{"x", ValueText::number}, {"color", ValueText::color}}}},
     {"pixel of video", {{{"color", ValueText::color}, {"tuser", ValueText::number}, {"tlast", ValueText::number}}}},
@@ -81,7 +81,7 @@ namespace unit { enum : int { z = 0, index = 1, color = 2, normal_class = 3 }; }
 namespace tree { enum : int { z = 0, color = 1, normal_class = 2 }; }
 namespace line { enum : int { first = 0, blank = 1, load = 2, painted = 3, width = 4, background = 5, shade = 6 }; }
 namespace command { enum : int { kind = 0, xl = 1, xr = 2, count = 3, z = 4, dz = 5, share = 6, color = 7, dcolor = 10 }; }
-namespace pixel { enum : int { kind = 0, z_came = 1, color_came = 2, z = 3, color = 4, normal_class = 5, dsf = 6, fsf = 7, counts = 8 }; }
+namespace pixel { enum : int { kind = 0, z_came = 1, color_came = 2, z = 3, color = 4, normal_class = 5, dsf = 6, fsf = 7, counts = 8, served = 9 }; }
 namespace exit { enum : int { color = 0, covered = 1, dark = 2, normal_class = 3, counts = 4 }; }
 namespace load { enum : int { x = 0, color = 1 }; }
 namespace out { enum : int { color = 0, tuser = 1, tlast = 2 }; }
@@ -144,6 +144,7 @@ enum class Part : std::uint8_t {
   stream_register,
   compare_cell,
   light_resolve,
+  display_curve,
   pixel_loads,
   lane_ramp,
   token_command,  ///< a command changes while it waits
@@ -169,13 +170,14 @@ struct PartInfo {
   std::string_view module;
   Blame blame;
 };
-inline constexpr std::array<PartInfo, 24> kParts{{
+inline constexpr std::array<PartInfo, 25> kParts{{
     {"ram_1r1w", Blame::leaf},
     {"stream_fifo", Blame::leaf},
     {"skid_buffer", Blame::leaf},
     {"stream_register", Blame::leaf},
     {"compare_cell", Blame::leaf},
     {"light_resolve", Blame::leaf},
+    {"display_curve", Blame::leaf},
     {"pixel_loads", Blame::leaf},
     {"lane_ramp", Blame::leaf},
     {"token_command", Blame::parent},

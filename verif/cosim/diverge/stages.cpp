@@ -44,7 +44,8 @@ std::string value_text(const Config& config, Stage stage, int index, std::uint64
       return fmt::format("{}", static_cast<double>(sign_extend(value, derived::depth_bits(config))) /
                                    static_cast<double>(std::int64_t{1} << config.z_frac));
     case ValueText::color: {
-      const auto color = unpacked_color(value);
+      const bool shown = stage == Stage::line || stage == Stage::load || stage == Stage::out;
+      const auto color = unpacked_levels(value, shown ? 8 : derived::pixel_level_bits(config));
       return fmt::format("{}", fmt::join(std::span(color).first(static_cast<std::size_t>(config.channels)), ","));
     }
     case ValueText::depth:

@@ -90,6 +90,8 @@ proof line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=0 TRANSLUCENCY=
 proof line_phase_parity module=line_phase rtl=line_phase set="DSF_BITS=1 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" inside="$phase_inside" steps=12 induction=2 cover=12
 proof line_phase_samples module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1" inside="$phase_inside" steps=12 induction=2 cover=12
 proof line_phase_counts module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=2 TRANSLUCENCY=0" inside="$phase_inside" steps=12 induction=2 cover=12
+proof line_phase_linear module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=1 COUNT_BITS=2 TRANSLUCENCY=1 LINEAR_BITS=10" inside="$phase_inside" steps=12 induction=2 cover=12
+proof line_phase_lights module=line_phase rtl=line_phase set="DSF_BITS=2 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1 LINEAR_BITS=10" inside="$phase_inside" steps=12 induction=2 cover=12
 proof line_phase_plain module=line_phase rtl=line_phase set="DSF_BITS=0 FSF=0 COUNT_BITS=0 TRANSLUCENCY=1" inside="$phase_inside" steps=12 induction=2 cover=12
 
 # ---- token_reader ----------------------------------------------------------------------------------------------------

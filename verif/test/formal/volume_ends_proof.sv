@@ -36,6 +36,7 @@ module volume_ends_proof #(
     parameter int SEG_BITS = 1,
     parameter int ORDER_BITS = 1,
     parameter int CLASSIC = 0,
+    parameter int LINEAR_BITS = 0,
     `include "generated/kage_widths.svh"
     localparam int Words = 2,
     localparam int ItemBits = 2 + FamilyBits + 32 + FlagsBits + Words * 32

@@ -199,7 +199,7 @@ void span_setup_is_ref() {
   constexpr int kPlane = BITS - FRAC + kage::kPlaneFrac;
   using Value = hw::s<kPlane>;
   Dice dice;
-  const kage::SpanSetup setup(FRAC, BITS);
+  const kage::SpanSetup setup(FRAC, BITS, FRAC);
   constexpr kage::hls::SpanRounding kRounding = kage::hls::span_rounding(FRAC);
   constexpr int kShift = kage::kPlaneFrac - FRAC;
   long held = 0;

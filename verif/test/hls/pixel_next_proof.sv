@@ -20,15 +20,15 @@ module pixel_next_proof #(
   `include "kage_pixel_next.svh"
 
   // ---- the RTL's ----------------------------------------------------------------------------------------------------
-  logic opaque, in_front, blends;
+  logic opaque, in_front, mixes;
   logic [PixelBits-1:0] plain, next;
   always_comb begin
     opaque = pixel_opaque(kind);
-    in_front = pixel_in_front(z, pixel[PixelZAt+:Z_BITS]);
-    blends = pixel_blends(pixel, kind, in_front, count[DsfBits-1:0]);
+    in_front = pixel_in_front(z, pixel[PixelZAt+:Z_BITS], pixel_lights(kind));
+    mixes = pixel_mixes(pixel, kind, in_front, count);
     plain = pixel_next(pixel, kind, opaque, in_front, z, color, count);
     next = plain;
-    if (blends) next[PixelColorAt+:RgbBits] = blended;
+    if (mixes) next[PixelColorAt+:RgbBits] = blended;
   end
 
   // ---- the kernel's -------------------------------------------------------------------------------------------------

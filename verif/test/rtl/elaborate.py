@@ -270,7 +270,7 @@ def random_configuration(chance, defs):
 
 
 def random_pairs(source, count):
-    """Configurations by their text: so many random ones, each without a front end and with one."""
+    """Configurations by their text: so many random ones, each without a front end and, where it may have one, with one."""
     defs = yaml.safe_load((source / "rtl/defs/kage.yaml").read_text())
     most = next(p["max"] for p in defs["impl_params"] if p["name"] == "ACTIVE")
     chance = random.Random(int(os.environ.get("KAGE_SEED", "1")))
@@ -278,6 +278,8 @@ def random_pairs(source, count):
         values = random_configuration(chance, defs)
         for active in (0, chance.choice((1, 2, chance.randint(1, most)))):
             given = {**values, "ACTIVE": active}
+            if not all(holds(rule, given) for rule in defs["rules"]):
+                continue
             yield " ".join(f"{name}={value}" for name, value in given.items()), given
 
 

@@ -19,6 +19,12 @@ inline Config random_config(Random& random, int width = 4096) {
   if (random.chance(0.4)) c.count_bits = 0;
   if (random.chance(0.4)) c.class_bits = 1;
   if (random.chance(0.4)) c.active = random.in(0, 6);
+  if (random.chance(0.7)) {
+    c.linear_bits = 0;
+  } else if (c.linear_bits > 0) {
+    c.dsf_bits = std::max(c.dsf_bits, 1);
+    c.smooth = c.lights = c.class_bits = 1;
+  }
   c.max_width = width;
   for (const RuleInfo& rule : kRules)
     if (!rule.holds(c)) rule.repair(c);

@@ -30,11 +30,11 @@ module kage_top_pixels_monitor #(
   assign back = load;
   assign unused_last = back.last;
 
-  localparam int CountersBits = COUNT_BITS > 0 ? TallyBits : 1;
+  localparam int CountersBits = ExitTallyBits > 0 ? ExitTallyBits : 1;
   function automatic void trace_leaving(input logic last, input logic [ExitBits-1:0] pixel);
-    trace_exit(32'(last), 64'(pixel[ExitColorAt+:RgbBits]), 64'(pixel[ExitCoveredAt]),
+    trace_exit(32'(last), 64'(pixel[ExitColorAt+:PixelRgbBits]), 64'(pixel[ExitCoveredAt]),
                DarkBits > 0 ? 64'(pixel[ExitDarkAt]) : 64'd0, HasTable ? 64'(pixel[ExitClassAt+:CLASS_BITS]) : 64'd0,
-               COUNT_BITS > 0 ? 64'(pixel[ExitCountsAt+:CountersBits]) : 64'd0);
+               ExitTallyBits > 0 ? 64'(pixel[ExitCountsAt+:CountersBits]) : 64'd0);
   endfunction
 
   always_ff @(posedge clk_i) begin

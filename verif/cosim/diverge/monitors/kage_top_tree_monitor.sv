@@ -38,8 +38,8 @@ module kage_top_tree_monitor #(
       if (call.claim) trace_claim(0);
       if (call.face) begin
         trace_face(32'(piece.unit), 64'(piece.face), 64'(piece.entry[EntryIndexAt+:ORDER_BITS]),
-                   DSF_BITS > 0 ? 64'(piece.entry[EntryClassAt+:CLASS_BITS]) : 64'd0,
-                   64'(piece.entry[EntryDzAt+:DepthBits]), 64'(piece.entry[EntryColorAt+:RgbBits]));
+                   ClassBits > 0 ? 64'(piece.entry[EntryClassAt+:CLASS_BITS]) : 64'd0,
+                   64'(piece.entry[EntryDzAt+:DepthBits]), 64'(piece.entry[EntryColorAt+:PixelRgbBits]));
       end
       if (tree_seg_valid && tree_seg_ready) begin
         trace_segment(32'(piece.unit), 64'(piece.z), 64'(piece.dx), 64'(piece.face), 64'(piece.completes));

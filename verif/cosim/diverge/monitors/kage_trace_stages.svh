@@ -35,8 +35,8 @@ function automatic void trace_command(input int v_unit_at, input logic [63:0] v_
   kage_trace(StageCommand, v_unit_at, TraceBits'({v_dcolor, v_color, v_share, v_dz, v_z, v_count, v_xr, v_xl, v_kind}));
 endfunction
 
-function automatic void trace_pixel(input int v_unit_at, input logic [63:0] v_kind, input logic [63:0] v_z_came, input logic [63:0] v_color_came, input logic [63:0] v_z, input logic [63:0] v_color, input logic [63:0] v_normal_class, input logic [63:0] v_dsf, input logic [63:0] v_fsf, input logic [63:0] v_counts);
-  kage_trace(StagePixel, v_unit_at, TraceBits'({v_counts, v_fsf, v_dsf, v_normal_class, v_color, v_z, v_color_came, v_z_came, v_kind}));
+function automatic void trace_pixel(input int v_unit_at, input logic [63:0] v_kind, input logic [63:0] v_z_came, input logic [63:0] v_color_came, input logic [63:0] v_z, input logic [63:0] v_color, input logic [63:0] v_normal_class, input logic [63:0] v_dsf, input logic [63:0] v_fsf, input logic [63:0] v_counts, input logic [63:0] v_served);
+  kage_trace(StagePixel, v_unit_at, TraceBits'({v_served, v_counts, v_fsf, v_dsf, v_normal_class, v_color, v_z, v_color_came, v_z_came, v_kind}));
 endfunction
 
 function automatic void trace_exit(input int v_unit_at, input logic [63:0] v_color, input logic [63:0] v_covered, input logic [63:0] v_dark, input logic [63:0] v_normal_class, input logic [63:0] v_counts);

@@ -22,7 +22,7 @@ module light_resolve_monitor #(
   `include "kage_trace.svh"
   `include "generated/kage_buses.svh"
 
-  if (COUNT_BITS > 0) begin : gen_light
+  if (COUNT_BITS > 0 && LINEAR_BITS == 0) begin : gen_light
     table_entry_t entry;
     assign entry = table_i;
     localparam int ResultBits = RgbBits + 1 + CHANNELS * FactorBits;

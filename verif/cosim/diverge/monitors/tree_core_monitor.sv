@@ -18,8 +18,8 @@ module tree_core_monitor #(
   `include "kage_trace.svh"
 
   function automatic void trace_point(input int u, input logic [PointBits-1:0] point);
-    trace_unit(u, 64'(point[PointZAt+:Z_BITS]), 64'(point[PointIndexAt+:ORDER_BITS]), 64'(point[PointColorAt+:RgbBits]),
-               DSF_BITS > 0 ? 64'(point[PointClassAt+:CLASS_BITS]) : 64'd0);
+    trace_unit(u, 64'(point[PointZAt+:Z_BITS]), 64'(point[PointIndexAt+:ORDER_BITS]),
+               64'(point[PointColorAt+:PixelRgbBits]), ClassBits > 0 ? 64'(point[PointClassAt+:CLASS_BITS]) : 64'd0);
   endfunction
 
   for (genvar u = 0; u < UNITS; u++) begin : gen_unit

@@ -14,9 +14,11 @@ const Stream = (() => {
     alpha_field_bits: (c) => c.TRANSLUCENCY > 0 ? 8 : 0,  // a polygon's alpha
     segment_depth_bits: (c) => c.CLASSIC > 0 ? 15 : derived.depth_bits(c),  // a segment's depth; the paper's is unsigned
     smooth_bits: (c) => 10 + c.COLOR_FRAC,  // one channel of a colour that changes along its span, and of its slope
+    pixel_level_bits: (c) => c.LINEAR_BITS > 0 ? c.LINEAR_BITS : 8,  // one channel of a colour that a pixel holds
+    pass_samples_bits: (c) => c.LINEAR_BITS > 0 ? c.COUNT_BITS : 0,  // the samples of a light that RESOLVE tells
     ramp_bits: (c) => c.SMOOTH > 0 ? derived.smooth_bits(c) : 8,  // one channel of a span's colour
     slope_field_bits: (c) => c.SMOOTH > 0 ? derived.smooth_bits(c) : 0,  // one channel of a span's colour slope
-    class_field_bits: (c) => c.DSF_BITS > 0 ? c.CLASS_BITS : 0,  // the class of a pixel, a face, and the tree's pixel
+    class_field_bits: (c) => c.DSF_BITS > 0 && c.LINEAR_BITS == 0 ? c.CLASS_BITS : 0,  // the class of a pixel, a face, and the tree's pixel
     light_bits: (c) => c.LIGHTS > 4 ? 3 : (c.LIGHTS > 2 ? 2 : 1),  // a light's number
     unit_bits: (c) => c.UNITS > 32 ? 6 : (c.UNITS > 16 ? 5 : (c.UNITS > 8 ? 4 : (c.UNITS > 4 ? 3 : (c.UNITS > 2 ? 2 : 1)))),  // an expansion unit's number
   };
@@ -27,7 +29,7 @@ const Stream = (() => {
   const none = {name: "-", present: () => false, fields: () => []};
   const kinds = [
     none,
-    {name: "SHADE", present: (c) => c.CLASS_BITS > 1 ? 0 : c.DSF_BITS > 0, fields: (c) => [
+    {name: "SHADE", present: (c) => c.CLASS_BITS > 1 || c.LINEAR_BITS > 0 ? 0 : c.DSF_BITS > 0, fields: (c) => [
       ["shade", derived.factor_bits(c), false, 0],
     ]},
     {name: "TABLE", present: (c) => c.CLASS_BITS > 1, fields: (c) => [
@@ -41,7 +43,7 @@ const Stream = (() => {
       ["index", c.ORDER_BITS, false, 0],
       ["class", derived.class_field_bits(c), false, 0],
       ["dz", derived.depth_bits(c), true, 0],
-      ["color", 8, false, c.CHANNELS],
+      ["color", derived.pixel_level_bits(c), false, c.CHANNELS],
     ]},
     {name: "SEG", present: (c) => c.UNITS > 0, fields: (c) => [
       ["unit", derived.unit_bits(c), false, 0],
@@ -85,7 +87,9 @@ const Stream = (() => {
       ["xr", c.X_BITS, false, 0],
       ["light", derived.light_bits(c), false, 0],
     ]},
-    {name: "RESOLVE", present: (c) => c.DSF_BITS > 0, fields: (c) => []},
+    {name: "RESOLVE", present: (c) => c.DSF_BITS > 0, fields: (c) => [
+      ["samples", derived.pass_samples_bits(c), false, 0],
+    ]},
     {name: "TP", present: (c) => c.TRANSLUCENCY > 0, fields: (c) => [
       ["xl", c.X_BITS, false, 0],
       ["xr", c.X_BITS, false, 0],
@@ -208,7 +212,8 @@ const Stream = (() => {
       share: (v) => `${v}/${2 ** c.SHADE_FRAC}`,
       ramp: (color, slope) => color.map((v, i) => number(v / 2 ** c.COLOR_FRAC) +
           (c.SMOOTH ? withSign(slope[i] / 2 ** c.COLOR_FRAC) : "")).join(","),
-      class: (v) => c.DSF_BITS === 0 ? "" : c.CLASS_BITS === 1 ? (v ? " lit" : " unlit") : ` class ${v}`,
+      samples: (v) => width.pass_samples_bits > 0 ? ` ${v}` : "",
+      class: (v) => c.DSF_BITS === 0 || c.LINEAR_BITS > 0 ? "" : c.CLASS_BITS === 1 ? (v ? " lit" : " unlit") : ` class ${v}`,
       face: (v, z) => v === 2 ** c.FACE_BITS - 1 ? " blank" : ` face ${v} z ${as.depth(z)}`,
       flag: (name, set) => set ? ` ${name}` : "",
     };
@@ -236,6 +241,8 @@ const Stream = (() => {
           return "EV [" + as.plain(t.xl) + ", " + as.plain(t.xr) + ")";
         case "ES":
           return "ES [" + as.plain(t.xl) + ", " + as.plain(t.xr) + ") light " + as.plain(t.light);
+        case "RESOLVE":
+          return "RESOLVE" + as.samples(t.samples);
         case "TP":
           return "TP [" + as.plain(t.xl) + ", " + as.plain(t.xr) + ") z " + as.depth(t.z) + " dz " + as.depth(t.dz) + " color " + as.ramp(t.color, t.dcolor) + " alpha " + as.plain(t.alpha);
         case "EOL":

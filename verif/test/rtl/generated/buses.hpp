@@ -156,13 +156,16 @@ struct VerdictBus {
   Place seg;  ///< it is a SEG
   Place seg_goes;  ///< a good SEG that its unit takes
   Place completes;  ///< a SEG that ends its unit's line
-  Place resolved;  ///< the token before it in its line is a RESOLVE
+  Place resolved;  ///< a RESOLVE is the newest before it in its line, but for opaque spans of linear light
+  Place pass;  ///< of the line's last RESOLVE, as the command of that OP has it
   Place bias;  ///< as the token finds it
 
   explicit constexpr VerdictBus([[maybe_unused]] const Config& c) {
     int at = 0;
     bias = {at, derived::dsf_bus_bits(c)};
     at += bias.bits;
+    pass = {at, derived::pass_bits(c)};
+    at += pass.bits;
     resolved = {at, 1};
     at += resolved.bits;
     completes = {at, 1};
@@ -344,7 +347,7 @@ struct TreePixelBus {
     int at = 0;
     last = {at, 1};
     at += last.bits;
-    color = {at, derived::rgb_bits(c)};
+    color = {at, derived::pixel_rgb_bits(c)};
     at += color.bits;
     normal_class = {at, c.class_bits};
     at += normal_class.bits;
@@ -395,12 +398,13 @@ struct PixelWord {
   Place dsf;  ///< the shadow counter
   Place fsf;  ///< the flag
   Place counts;  ///< its samples in shadow, light 0 lowest
+  Place served;  ///< the pass of its newest light, modulo 2
 
   explicit constexpr PixelWord([[maybe_unused]] const Config& c) {
     int at = 0;
     z = {at, c.z_bits};
     at += z.bits;
-    color = {at, derived::rgb_bits(c)};
+    color = {at, derived::pixel_rgb_bits(c)};
     at += color.bits;
     normal_class = {at, derived::class_field_bits(c)};
     at += normal_class.bits;
@@ -409,6 +413,8 @@ struct PixelWord {
     fsf = {at, c.fsf};
     at += fsf.bits;
     counts = {at, derived::tally_bits(c)};
+    at += counts.bits;
+    served = {at, derived::served_bits(c)};
   }
 };
 
@@ -422,13 +428,13 @@ struct ExitWord {
 
   explicit constexpr ExitWord([[maybe_unused]] const Config& c) {
     int at = 0;
-    color = {at, derived::rgb_bits(c)};
+    color = {at, derived::pixel_rgb_bits(c)};
     at += color.bits;
     covered = {at, 1};
     at += covered.bits;
     normal_class = {at, derived::exit_class_bits(c)};
     at += normal_class.bits;
-    counts = {at, derived::tally_bits(c)};
+    counts = {at, derived::exit_tally_bits(c)};
     at += counts.bits;
     dark = {at, derived::dark_bits(c)};
   }
@@ -449,7 +455,7 @@ struct EntryWord {
     at += normal_class.bits;
     dz = {at, derived::depth_bits(c)};
     at += dz.bits;
-    color = {at, derived::rgb_bits(c)};
+    color = {at, derived::pixel_rgb_bits(c)};
   }
 };
 
@@ -520,7 +526,7 @@ struct PointWord {
     int at = 0;
     normal_class = {at, derived::class_field_bits(c)};
     at += normal_class.bits;
-    color = {at, derived::rgb_bits(c)};
+    color = {at, derived::pixel_rgb_bits(c)};
     at += color.bits;
     index = {at, c.order_bits};
     at += index.bits;

@@ -207,7 +207,7 @@ TEST_CASE("random polygons at the polygon level give the tokens of the span leve
   std::uint64_t made[3]{};
   for (int round = 0; round < 3000; ++round) {
     Config c = random_config(random, kMaxSize);
-    c.units = 0;
+    c.units = c.linear_bits = 0;
     constexpr std::array kActive{1, 4, 4, 32, 512, 512, 4096};
     c.active = kActive[static_cast<std::size_t>(random.in(0, 6))];
     const int widest = std::min(c.max_width, kMaxSize);

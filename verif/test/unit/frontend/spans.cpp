@@ -31,7 +31,7 @@ TEST_CASE("a span that stays in range is one part, with the ramp that 128 bits g
   for (int round = 0; round < 200'000; ++round) {
     const int frac = random.in(0, 16);
     const int bits = random.in(4, 28) + frac + 2;
-    const SpanSetup setup(frac, bits);
+    const SpanSetup setup(frac, bits, frac);
     // On both sides of what 64 bits hold, often right at it.
     ScreenPlane p;
     p.a = random.chance(0.2) ? (std::int64_t{1} << 44) + random.in(-2, 2) : about(random, 50);
