@@ -54,15 +54,17 @@ module polygon_token #(
   logic [ KindBits-1:0] kind;
   logic [PlaceBits-1:0] place;
   logic [LayerBits-1:0] layer, layer_of_span;
-  logic has_layer, has_light;
+  logic has_layer, has_light, of_light;
   logic [SubpixelBits:0] past_bottom;
   assign flags = flags_i;
   assign kind = token_i[KindBits-1:0];
   assign place = token_i[AtRankLsb+:PlaceBits];
   assign layer = place[PlaceBits-1-:LayerBits];
   assign has_layer = layer == 2'd0 || (layer == 2'd1 && DSF_BITS > 0) || (layer == 2'd2 && TRANSLUCENCY > 0);
-  assign has_light = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:LightPlaceBits]} < 4'(LIGHTS);
-  assign layer_of_span = kind == KindOp ? 2'd0 : kind == KindTp ? 2'd2 : 2'd1;
+  assign has_light = layer != 2'd1 || {1'b0, place[RankBits+VolumeBits+:LightPlaceBits]} < 4'(PlaceLights);
+  // A light's own spans stand behind its volumes, in their layer.
+  assign of_light = LINEAR_BITS > 0 && place_q[PlaceBits-1-:LayerBits] == 2'd1 && place_q[RankBits+VolumeBits];
+  assign layer_of_span = kind == KindTp ? 2'd2 : kind == KindOp && !of_light ? 2'd0 : 2'd1;
   // A line is an edge's if its centre, half a pixel down, lies above the edge's bottom.
   assign past_bottom = {token_i[EdgeBottomYLsb+SubpixelBits-1], token_i[EdgeBottomYLsb+:SubpixelBits]} + 25'd127;
 
@@ -79,7 +81,8 @@ module polygon_token #(
     coming.misplaced = 1'b0;
     if (coming.at_token && (!has_layer || !has_light || (placed_q && place < place_q))) coming.misplaced = 1'b1;
     if ((coming.polygon || coming.edge_token || coming.span) && !placed_q) coming.misplaced = 1'b1;
-    if (coming.span && place_q[PlaceBits-1-:LayerBits] != layer_of_span) coming.misplaced = 1'b1;
+    if (coming.span && (place_q[PlaceBits-1-:LayerBits] != layer_of_span || (of_light && kind != KindOp)))
+      coming.misplaced = 1'b1;
     if (coming.gradient && token_i[GradientChannelLsb+:2] >= 2'(CHANNELS)) coming.misplaced = 1'b1;
     coming.flushes = (coming.polygon || coming.span || coming.eol || coming.edge_token) && !coming.misplaced;
     coming.side = token_i[EdgeSideLsb];

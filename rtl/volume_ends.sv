@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The way out of front_end: its items as tokens of the span level, and between them the EV, ES and RESOLVE that frames
 // at the polygon level do without. A volume ends where a token of another one comes, or one that is of no volume; its
-// range is the union of its spans.
+// range is the union of its spans. With linear light a RESOLVE stands before the first of a light's own spans.
 //
 // Handshake: valid/ready on both sides, item_* with span_i where the item is a polygon's (item_made_i). Output
 //   item_ready_o depends on token_ready_i, which comes from a register.
@@ -11,7 +11,8 @@
 // Flush: by flush_i nothing is open, as after reset and behind a header.
 // Latency: 1 clock. Throughput: a token a clock; an end of a volume, of a sample, and RESOLVE are tokens like others. A
 //   polygon without pixels, or whose weight is 0, takes a clock and gives none; without FSF so does a volume's end.
-// Cost: a register of an item, four numbers of X_BITS, the family, comparators of X_BITS and of the family.
+// Cost: a register of an item, four numbers of X_BITS, the family, comparators of X_BITS and of the family; with linear
+//   light COUNT_BITS + 2 flip-flops more.
 `default_nettype none
 
 module volume_ends #(
@@ -46,6 +47,7 @@ module volume_ends #(
   localparam int TokenBits = TOKEN_WORDS * 32;
   localparam int SampleAt = VolumeBits;  // in the family: the light, the sample, the layer
   localparam int SampleFamilyBits = FamilyBits - SampleAt;
+  localparam int SamplesBits = PassSamplesBits > 0 ? PassSamplesBits : 1;
   localparam int SomeClassBits = ClassBits > 0 ? ClassBits : 1;
 
   // ---- an item on its way into the register ------------------------------------------------------------------------
@@ -56,10 +58,12 @@ module volume_ends #(
   logic [TokenBits-1:0] token;
   made_span_t coming_span;
   logic [LayerBits-1:0] layer;
+  logic lights;  // its place is of a light's own spans
   logic [KindBits-1:0] kind;
   assign {plain, whole, family, index, flags, token} = item_i;
   assign coming_span = span_i;
   assign layer = family[FamilyBits-1-:LayerBits];
+  assign lights = LINEAR_BITS > 0 && layer == 2'd1 && family[SampleAt];
   assign kind = token[KindBits-1:0];
 
   // ---- a polygon's span as a token ---------------------------------------------------------------------------------
@@ -154,28 +158,31 @@ module volume_ends #(
   end
 
   // ---- the token that it is, and what it is to volumes -------------------------------------------------------------
-  // Which volume was open is told by the last item before it that was of one.
+  // Which volume was open, or which light had its RESOLVE, is told by the last item before it that was of either.
   typedef struct packed {
     logic none;  // it gives no token
     logic of_volume;
+    logic of_light;  // one of a light's own spans
     logic behind_volumes;
     logic other_volume;
     logic other_sample;
     logic whole;  // a near cap over the whole line, which is what IF says
   } judged_t;
-  localparam int JudgedBits = 6;
+  localparam int JudgedBits = 7;
   judged_t judged, is_q;
   logic come, item_valid, leaves;
   logic [FamilyBits-1:0] family_q;
   logic [TokenBits-1:0] comes_to, token_q;
   flags_t comes_with, flags_q;
-  logic [LightBits-1:0] of_light_q;
+  logic [LightBits-1:0] volume_light_q;  // the light of its volume
+  logic [SamplesBits-1:0] samples_q;  // of its light
   logic [31:0] index_q;
-  assign judged.none = item_made_i && (coming_span.empty || (layer == 2'd1 && no_weight));
+  assign judged.none = item_made_i && (coming_span.empty || (layer == 2'd1 && !lights && no_weight));
   // An item that is not plain has a range, or is an EOL.
-  assign judged.of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 : kind_has_range(
+  assign judged.of_volume = !plain && DSF_BITS > 0 && (item_made_i ? layer == 2'd1 && !lights : kind_has_range(
       kind
   ) && kind != KindOp && kind != KindTp);
+  assign judged.of_light = !plain && lights && (item_made_i || kind == KindOp);
   assign judged.behind_volumes = !plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
   assign judged.other_volume = family != family_q;
   assign judged.other_sample = family[FamilyBits-1-:SampleFamilyBits] != family_q[FamilyBits-1-:SampleFamilyBits];
@@ -183,35 +190,38 @@ module volume_ends #(
   assign comes_with = item_made_i ? '0 : flags;
   assign comes_to = !item_made_i ? (judged.whole ? if_of(
       token[NcWLsb+:DSF_BITS+1]
-  ) : token) : layer == 2'd1 ? made_sp : layer == 2'd2 ? made_tp : made_op;
+  ) : token) : layer == 2'd1 && !lights ? made_sp : layer == 2'd2 ? made_tp : made_op;
   assign come = item_valid_i && item_ready_o;
-  always_ff @(posedge clk_i) if (come && judged.of_volume && !judged.none) family_q <= family;
+  always_ff @(posedge clk_i) if (come && (judged.of_volume || judged.of_light) && !judged.none) family_q <= family;
 
   stream_register #(
-      .BITS(JudgedBits + LightBits + 32 + FlagsBits + TokenBits)
+      .BITS(JudgedBits + LightBits + SamplesBits + 32 + FlagsBits + TokenBits)
   ) u_item (
       .clk_i,
       .rst_ni     (rst_ni && !flush_i),
       .in_valid_i (item_valid_i),
       .in_ready_o (item_ready_o),
-      .in_data_i  ({judged, family[SampleAt+:LightBits], index, comes_with, comes_to}),
+      .in_data_i  ({judged, family[SampleAt+:LightBits], family[0+:SamplesBits], index, comes_with, comes_to}),
       .out_valid_o(item_valid),
       .out_ready_i(leaves),
-      .out_data_o ({is_q, of_light_q, index_q, flags_q, token_q})
+      .out_data_o ({is_q, volume_light_q, samples_q, index_q, flags_q, token_q})
   );
 
   // ---- what it does to volumes -------------------------------------------------------------------------------------
   logic [X_BITS-1:0] xl, xr;
   logic any_q, volume_here_q, sample_here_q;
+  logic pass_here_q;  // the light at hand has its RESOLVE
   logic [LightBits-1:0] light_q;
   logic [X_BITS-1:0] volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
-  logic ends_volume, ends_sample, resolves, passes, gives, done;
+  logic ends_all, ends_volume, ends_sample, resolves, passes, gives, done;
   assign xl = is_q.whole ? '0 : token_q[RangeXlLsb+:X_BITS];
   assign xr = is_q.whole ? width_i : token_q[RangeXrLsb+:X_BITS];
-  assign ends_volume = !is_q.none && volume_here_q && (is_q.behind_volumes || (is_q.of_volume && is_q.other_volume));
+  assign ends_all = is_q.behind_volumes || is_q.of_light;
+  assign ends_volume = !is_q.none && volume_here_q && (ends_all || (is_q.of_volume && is_q.other_volume));
   assign ends_sample = !is_q.none && !volume_here_q && sample_here_q &&
-      (is_q.behind_volumes || (is_q.of_volume && is_q.other_sample));
-  assign resolves = !is_q.none && !volume_here_q && !sample_here_q && any_q && is_q.behind_volumes;
+      (ends_all || (is_q.of_volume && is_q.other_sample));
+  assign resolves = !is_q.none && !volume_here_q && !sample_here_q &&
+      (is_q.of_light ? !pass_here_q : any_q && is_q.behind_volumes);
   assign passes = !is_q.none && !ends_volume && !ends_sample && !resolves;
   assign gives = passes || resolves || (ends_volume && FSF > 0) || (ends_sample && COUNT_BITS > 0);
   assign done = item_valid && (token_ready_i || !gives);
@@ -236,8 +246,16 @@ module volume_ends #(
       if (ends_sample) sample_here_q <= 1'b0;
       if (resolves) any_q <= 1'b0;
     end
+    // An item that comes finds the one before it on its way out.
+    if (LINEAR_BITS > 0) begin
+      if (!rst_ni || flush_i || (come && !judged.none && (!judged.of_light || judged.other_volume)))
+        pass_here_q <= 1'b0;
+      else if (done && resolves && is_q.of_light) pass_here_q <= 1'b1;
+    end else begin
+      pass_here_q <= 1'b0;
+    end
     if (done && passes && is_q.of_volume) begin
-      light_q <= of_light_q;
+      light_q <= volume_light_q;
       if (!volume_here_q || xl < volume_xl_q) volume_xl_q <= xl;
       if (!volume_here_q || xr > volume_xr_q) volume_xr_q <= xr;
     end
@@ -257,13 +275,14 @@ module volume_ends #(
       ending[EvXrLsb+:X_BITS] = ends_volume ? volume_xr_q : sample_xr_q;
     end
     if (ends_sample) ending[EsLightLsb+:LightBits] = light_q;
+    if (PassSamplesBits > 0 && resolves && is_q.of_light) ending[ResolveSamplesLsb+:SamplesBits] = samples_q;
     token_o = passes ? token_q : ending;
     token_flags_o = passes ? flags_q : '0;
   end
   assign token_index_o = index_q;
 
   logic unused_bits;
-  assign unused_bits = ^{token, coming_span};
+  assign unused_bits = ^{token, coming_span, samples_q};
 
   // ---- assertions --------------------------------------------------------------------------------------------------
 `ifndef SYNTHESIS
@@ -278,8 +297,7 @@ module volume_ends #(
       assert (!item_valid ||
               32'(passes) + 32'(ends_volume) + 32'(ends_sample) + 32'(resolves) + 32'(is_q.none) == 32'd1);
       // 2. An item leaves once all that ends before it has ended.
-      assert (!(item_valid && leaves && !is_q.none && is_q.behind_volumes) ||
-              !(volume_here_q || sample_here_q || any_q));
+      assert (!(item_valid && leaves && !is_q.none && ends_all) || !(volume_here_q || sample_here_q || any_q));
       // 3. A volume's range holds every span of it.
       assert (!joined_q || (volume_here_q && volume_xl_q <= joined_xl_q && joined_xr_q <= volume_xr_q));
     end

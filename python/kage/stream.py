@@ -59,7 +59,6 @@ RULES = [
     ("CLASS_BITS > 1 needs COUNT_BITS > 0: the table's shares are for each sample", lambda c: c.CLASS_BITS == 1 or c.COUNT_BITS > 0),
     ("LIGHTS > 1 needs COUNT_BITS > 0 and CLASS_BITS > 1: lights differ in counter and table", lambda c: c.LIGHTS == 1 or (c.COUNT_BITS > 0 and c.CLASS_BITS > 1)),
     ("LINEAR_BITS > 0 needs DSF_BITS > 0, SMOOTH, LIGHTS 1 and CLASS_BITS 1: light after light has one counter and no table", lambda c: c.LINEAR_BITS == 0 or (c.DSF_BITS > 0 and c.SMOOTH > 0 and c.LIGHTS == 1 and c.CLASS_BITS == 1)),
-    ("LINEAR_BITS > 0 needs ACTIVE 0: light after light comes by spans", lambda c: c.LINEAR_BITS == 0 or c.ACTIVE == 0),
     ("LINEAR_BITS > 0 needs COLOR_FRAC of LINEAR_BITS + COUNT_BITS - 8 at least: a sample's part of linear light", lambda c: c.LINEAR_BITS + c.COUNT_BITS <= 8 + c.COLOR_FRAC or c.LINEAR_BITS == 0),
     ("COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction", lambda c: c.COLOR_FRAC == 0 or c.SMOOTH > 0),
     ("CLASSIC needs Z_BITS 15, Z_FRAC 0, FACE_BITS 7 and DX_BITS 9: the paper's segment", lambda c: c.CLASSIC == 0 or (c.Z_BITS == 15 and c.Z_FRAC == 0 and c.FACE_BITS == 7 and c.DX_BITS == 9)),
@@ -73,7 +72,6 @@ LATE = {"LINEAR_BITS", "ACTIVE"}
 DERIVED = {
     "has_table": lambda c: c.CLASS_BITS > 1,  # a light's share is looked up in a table, by class
     "has_loads": lambda c: c.TRANSLUCENCY > 0 and (c.COUNT_BITS > 0 or c.LINEAR_BITS > 0),  # colours come back: a line with samples leaves to be darkened, or one with linear light to be displayed, before its first TP
-    "has_passes": lambda c: c.LINEAR_BITS > 0,  # a line's lights are added one after the other
     "clear_depth": lambda c: (1 << c.Z_BITS) - 1,  # a pixel's depth where nothing has been drawn
     "most_depth": lambda c: (1 << c.Z_BITS) - 2,  # the greatest depth that is drawn; the least is 1
     "blank_face": lambda c: (1 << c.FACE_BITS) - 1,  # the face of a segment that shows nothing
@@ -102,6 +100,7 @@ DERIVED = {
     "dsf_bus_bits": lambda c: c.DSF_BITS if c.DSF_BITS > 0 else 1,  # shadow counter, bias
     "class_field_bits": lambda c: c.CLASS_BITS if c.DSF_BITS > 0 and c.LINEAR_BITS == 0 else 0,  # the class of a pixel, a face, and the tree's pixel
     "light_bits": lambda c: 3 if c.LIGHTS > 4 else (2 if c.LIGHTS > 2 else 1),  # a light's number
+    "place_lights": lambda c: c.LIGHTS + (1 if c.LINEAR_BITS > 0 else 0),  # lights of a place; with linear light 1 says the light's own spans
     "light_at": lambda c: 0 if c.FSF > 0 else DERIVED["dsf_bus_bits"](c),  # ES's light in its command's count; below it, without FSF, the bias
     "sample_end_bits": lambda c: DERIVED["light_at"](c) + DERIVED["light_bits"](c) if c.LIGHTS > 1 else 1,  # ES in its command's count
     "pass_rest_bits": lambda c: c.COUNT_BITS if c.COUNT_BITS > 0 and c.LINEAR_BITS > 0 else DERIVED["dsf_bus_bits"](c),  # samples, or without counters bias, of an OP behind a RESOLVE

@@ -216,7 +216,7 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   // Counting may do with one volume; whether it does is known once it is made.
   if (needs.shadows && needs.several_volumes && config.fsf == 0 && config.dsf_bits <= 1)
     missing.emplace_back("several volumes (FSF)");
-  if (needs.shadows && needs.lights > config.lights && !derived::has_passes(config))
+  if (needs.shadows && needs.lights > config.lights && config.linear_bits == 0)
     missing.push_back(
         needs.lights > most_lights()
             ? fmt::format("shadows of {} lights (a core has LIGHTS {} at most)", needs.lights, most_lights())
@@ -234,7 +234,7 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
 std::vector<std::string> approximates(const Config& config, const Needs& needs) {
   std::vector<std::string> rough;
   if (needs.near_light() && config.smooth == 0) rough.emplace_back("light within a face (SMOOTH)");
-  if (needs.light_table() && !derived::has_table(config) && !derived::has_passes(config))
+  if (needs.light_table() && !derived::has_table(config) && config.linear_bits == 0)
     rough.emplace_back("what shadows take (CLASS_BITS)");
   return rough;
 }

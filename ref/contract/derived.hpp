@@ -16,8 +16,6 @@ namespace kage::derived {
 constexpr bool has_table(const Config& c) { return c.class_bits > 1; }
 /// colours come back: a line with samples leaves to be darkened, or one with linear light to be displayed, before its first TP
 constexpr bool has_loads(const Config& c) { return c.translucency > 0 && (c.count_bits > 0 || c.linear_bits > 0); }
-/// a line's lights are added one after the other
-constexpr bool has_passes(const Config& c) { return c.linear_bits > 0; }
 /// a pixel's depth where nothing has been drawn
 constexpr std::uint32_t clear_depth(const Config& c) { return static_cast<std::uint32_t>((1 << c.z_bits) - 1); }
 /// the greatest depth that is drawn; the least is 1
@@ -74,6 +72,8 @@ constexpr int dsf_bus_bits(const Config& c) { return c.dsf_bits > 0 ? c.dsf_bits
 constexpr int class_field_bits(const Config& c) { return c.dsf_bits > 0 && c.linear_bits == 0 ? c.class_bits : 0; }
 /// a light's number
 constexpr int light_bits(const Config& c) { return c.lights > 4 ? 3 : (c.lights > 2 ? 2 : 1); }
+/// lights of a place; with linear light 1 says the light's own spans
+constexpr int place_lights(const Config& c) { return c.lights + (c.linear_bits > 0 ? 1 : 0); }
 /// ES's light in its command's count; below it, without FSF, the bias
 constexpr int light_at(const Config& c) { return c.fsf > 0 ? 0 : dsf_bus_bits(c); }
 /// ES in its command's count

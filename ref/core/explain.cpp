@@ -266,7 +266,7 @@ std::string describe(const Config& config, const PixelState& s) {
     text = fmt::format("Z {}, colour {}", s.z, color_text(config, s.color));
   if (config.dsf_bits == 0) return text;
   if (s.z != derived::clear_depth(config))
-    text += derived::has_passes(config)  ? ""
+    text += config.linear_bits > 0       ? ""
             : derived::has_table(config) ? fmt::format(", class {}", s.normal_class)
             : s.normal_class != 0        ? ", lit"
                                          : ", unlit";

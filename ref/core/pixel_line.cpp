@@ -32,7 +32,7 @@ PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_(derived:
   dsf_.resize(n);
   fsf_.resize(n);
   if (derived::has_table(config)) class_.resize(n);
-  if (derived::has_passes(config)) linear_.emplace(config, n);
+  if (config.linear_bits > 0) linear_.emplace(config, n);
   if (config.count_bits > 0) counts_.assign(static_cast<std::size_t>(config.lights), std::vector<std::uint32_t>(n));
 }
 

@@ -87,6 +87,7 @@ class Band {
     words_.clear();
     written_ = {};
     for (Line& line : lines_) line.clear();
+    kept_.clear();
     opaque();
     if (f_->config->dsf_bits > 0) volumes();
     if (f_->config->translucency > 0) translucent();
@@ -154,7 +155,15 @@ class Band {
     PolygonWay way;
     Place place;
     std::vector<std::uint32_t> Line::*words;
-    SpanToken look;  // of its POLYGON
+    SpanToken look;                   // of its POLYGON
+    std::optional<std::size_t> pass;  // of its colour, if it has one
+  };
+
+  /// A span of an opaque polygon, which comes again with each light.
+  struct Kept {
+    std::uint32_t polygon;
+    int y;
+    SpanToken span;
   };
 
   [[nodiscard]] bool made(PolygonWay way) const { return layout_ != nullptr && way == PolygonWay::polygon; }
@@ -163,8 +172,8 @@ class Band {
   template <class Use>
   Role drawn_role(const ScreenPolygon& p, Layer layer, Use use) const {
     const bool opaque = layer == Layer::opaque;
-    Role role{PolygonWay::polygon, {}, opaque ? &Line::opaque : &Line::translucent, {}};
-    if (opaque) role.look.normal_class = span_class(p, *f_->config);
+    Role role{PolygonWay::polygon, {}, opaque ? &Line::opaque : &Line::translucent, {}, 0};
+    if (opaque && p.light_planes < 0) role.look.normal_class = span_class(p, *f_->config);
     if (layout_ == nullptr) return role;
     const PolygonLayout::Use as = use();
     role.way = as.way;
@@ -192,8 +201,9 @@ class Band {
       if (y == shape.first && !begun) {
         begun = true;
         writer_.polygon(depth_of(*f_->config, p, y), role.look);
-        const bool varies = f_->config->smooth != 0 && p.color_planes >= 0 && role.words != &Line::shadow;
-        for (int c = 0; varies && c < f_->config->channels; ++c) writer_.gradient(gradient_of(*g_, p, y, c));
+        const bool varies = f_->config->smooth != 0 && has_color_planes(p) && role.pass;
+        for (int c = 0; varies && c < f_->config->channels; ++c)
+          writer_.gradient(gradient_of(*g_, *f_->config, p, y, c, *role.pass));
       }
       writer_.edge(edge);
     });
@@ -210,25 +220,33 @@ class Band {
   }
 
   void opaque() {
+    const bool again = !g_->passes.empty();
     for (const std::uint32_t i : work_.polygons) {
-      if (i < f_->tree.first_span_polygon()) continue;
+      const bool in_unit = i < f_->tree.first_span_polygon();
+      if (in_unit && !again) continue;
       const ScreenPolygon& p = g_->polygons[i];
       const Role role = drawn_role(p, Layer::opaque, [&] { return layout_->opaque(i); });
       const bool as_polygon = made(role.way);
       if (as_polygon) polygon(i, role);
-      if (as_polygon && !keeps_origins_) continue;
+      if (as_polygon && !keeps_origins_ && !again) continue;
       spans_.each(p, y0_, y1_, [&](int y, SpanToken& s, int) {
-        if (as_polygon) {
-          at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
-          return;
-        }
-        spans_.painted(p, y, s, 0, [&](const SpanToken& part) {
-          before_span(at(y), i, role);
-          writer_.op(part);
-          if (keeps_origins_) at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
-        });
+        if (!in_unit) drawn_span(i, role, as_polygon, y, s);
+        if (again) kept_.push_back({i, y, s});
       });
     }
+  }
+
+  /// A span of an opaque polygon in a pass, unless the front end makes it.
+  void drawn_span(std::uint32_t number, const Role& role, bool as_polygon, int y, SpanToken s) {
+    const auto keep_origin = [&] {
+      if (keeps_origins_) at(y).origins.opaque.push_back({number, TokenOrigin::kNone});
+    };
+    if (as_polygon) return keep_origin();
+    spans_.painted(g_->polygons[number], y, s, *role.pass, [&](const SpanToken& part) {
+      before_span(at(y), number, role);
+      writer_.op(part);
+      keep_origin();
+    });
   }
 
   // A fragment's span is a part of its face's, with the face's depth and colour there, bit for bit.
@@ -296,25 +314,29 @@ class Band {
 
   /// The opaque spans once more, with a light's colours, those of units too: behind its volumes.
   void light(std::size_t pass) {
-    for (int y = y0_; y < y1_; ++y) {
+    for (int y = y0_; y < y1_ && layout_ == nullptr; ++y) {
       Line& line = at(y);
       if (line.opaque.empty() && line.shadow.empty() && !f_->tree.any()) continue;
       writer_.write_to(line.shadow);
       writer_.resolve(f_->config->count_bits > 0 ? g_->passes[pass] : 0);
     }
-    for (const std::uint32_t i : work_.polygons)
-      spans_.each(g_->polygons[i], y0_, y1_, [&](int y, SpanToken& s, int) {
-        spans_.painted(g_->polygons[i], y, s, 1 + pass, [&](const SpanToken& part) {
-          writer_.write_to(at(y).shadow);
-          writer_.op(part);
-          if (keeps_origins_) at(y).origins.opaque.push_back({i, TokenOrigin::kNone});
-        });
-      });
+    auto span = kept_.begin();
+    for (const std::uint32_t i : work_.polygons) {
+      Role role{PolygonWay::polygon, {}, &Line::shadow, {}, 1 + pass};
+      if (layout_ != nullptr) {
+        const PolygonLayout::Use use = layout_->lit(pass, i);
+        role.way = use.way;
+        role.place = layout_->light_place(pass, use.before);
+      }
+      const bool as_polygon = made(role.way);
+      if (as_polygon) polygon(i, role);
+      for (; span != kept_.end() && span->polygon == i; ++span) drawn_span(i, role, as_polygon, span->y, span->span);
+    }
   }
 
   void volume_face(std::uint32_t number, std::uint32_t volume) {
     const VolumeFace& face = g_->volume_faces[number];
-    Role role{PolygonWay::polygon, {}, &Line::shadow, {}};
+    Role role{PolygonWay::polygon, {}, &Line::shadow, {}, std::nullopt};
     if (layout_ != nullptr) {
       const PolygonLayout::Use use = layout_->face(number);
       role.way = use.way;
@@ -403,6 +425,7 @@ class Band {
   TokenWriter writer_;
   PolygonSpans spans_;
   PolygonReport written_;  // spans alone
+  std::vector<Kept> kept_;
   std::array<Line, kBandLines> lines_;
 };
 

@@ -110,7 +110,7 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   check_fits(g, config);
   if (options.level == Level::polygons && config.active == 0)
     throw Error("the polygon level needs ACTIVE, which the configuration lacks");
-  const bool polygons = options.level == Level::polygons && PolygonLayout::fits(g) && g.passes.empty();
+  const bool polygons = options.level == Level::polygons && PolygonLayout::fits(g);
   std::vector<std::uint32_t> words;
   TokenWriter writer(config, words);
   FrameHeader header{g.width, g.height, g.background, number};

@@ -28,7 +28,7 @@ class Prices {
 
   /// How many fewer it takes as a polygon than as spans with `ats` ATs.
   [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span, int ats) const {
-    const bool varies = p.color_planes >= 0 && span != Kind::SP;
+    const bool varies = has_color_planes(p) && span != Kind::SP;
     const std::int64_t polygon =
         words(Kind::AT) + words(Kind::POLYGON) + (varies ? gradients_ : 0) + 2 * words(Kind::EDGE);
     return s.spans * words(span) + ats * words(Kind::AT) - polygon - s.words;
@@ -60,7 +60,7 @@ bool PolygonLayout::fits(const FrameGeometry& g) {
   std::uint32_t in_sample = 0;
   for (std::size_t v = 0; v < g.volumes.size(); ++v) {
     in_sample = v > 0 && g.volumes[v].sample == g.volumes[v - 1].sample ? in_sample + 1 : 0;
-    if (in_sample >= kMostVolumes || g.volumes[v].sample >= kMostSamples) return false;
+    if (in_sample >= kMostVolumes || g.volumes[v].sample + g.passes.size() >= kMostSamples) return false;
   }
   return true;
 }
@@ -80,6 +80,7 @@ void PolygonLayout::find_shapes(const Config& config, Arena& arena) {
 }
 
 void PolygonLayout::number_uses(const Config& config) {
+  counts_ = config.count_bits > 0;
   first_face_ = g_->drawn;
   first_translucent_ = first_face_ + (config.dsf_bits > 0 ? g_->volume_faces.size() : 0);
   if (config.translucency > 0)
@@ -87,7 +88,8 @@ void PolygonLayout::number_uses(const Config& config) {
       first_of_fragment_.push_back(first_translucent_ + fragment_of_.size());
       fragment_of_.resize(fragment_of_.size() + g_->fragments[f].polygon_count, f);
     }
-  ways_.resize(first_translucent_ + fragment_of_.size());
+  first_lit_ = first_translucent_ + fragment_of_.size();
+  ways_.resize(first_lit(g_->passes.size()));
   before_.resize(ways_.size());
   made_of_.resize(g_->volumes.size());
   number_.resize(g_->volumes.size());
@@ -96,12 +98,14 @@ void PolygonLayout::number_uses(const Config& config) {
 }
 
 Kind PolygonLayout::span_of(std::size_t use) const {
-  return use < first_face_ ? Kind::OP : use < first_translucent_ ? Kind::SP : Kind::TP;
+  if (use < first_face_ || use >= first_lit_) return Kind::OP;
+  return use < first_translucent_ ? Kind::SP : Kind::TP;
 }
 
 std::uint32_t PolygonLayout::polygon_of(std::size_t use) const {
   if (use < first_face_) return static_cast<std::uint32_t>(use);
   if (use < first_translucent_) return g_->volume_faces[use - first_face_].polygon;
+  if (use >= first_lit_) return static_cast<std::uint32_t>((use - first_lit_) % g_->drawn);
   const std::uint32_t fragment = fragment_of_[use - first_translucent_];
   return g_->fragments[fragment].first_polygon + static_cast<std::uint32_t>(use - first_of_fragment_[fragment]);
 }
@@ -237,7 +241,8 @@ void PolygonLayout::each_order(Each order) const {
   if (first_translucent_ > first_face_)
     for (const ShadowVolume& v : g_->volumes)
       order(first_face_ + v.first_face, first_face_ + v.first_face + v.face_count);
-  order(first_translucent_, ways_.size());
+  order(first_translucent_, first_lit_);
+  for (std::size_t l = 0; l < g_->passes.size(); ++l) order(first_lit(l), first_lit(l + 1));
 }
 
 // Spans that stand between the same two polygons share the AT of a line, and a polygon parts those before it from those
@@ -278,7 +283,8 @@ void PolygonLayout::count() {
   };
   constexpr std::uint32_t kAny = std::numeric_limits<std::uint32_t>::max();
   count_some(0, first_face_, kAny);
-  count_some(first_translucent_, ways_.size(), kAny);
+  count_some(first_translucent_, first_lit_, kAny);
+  for (std::size_t l = 0; l < g_->passes.size(); ++l) count_some(first_lit(l), first_lit(l + 1), kMostRank);
   if (first_translucent_ == first_face_) return;
   for (std::size_t v = 0; v < g_->volumes.size(); ++v) {
     const std::size_t first = first_face_ + g_->volumes[v].first_face;
@@ -287,13 +293,25 @@ void PolygonLayout::count() {
 }
 
 Place PolygonLayout::place(std::uint32_t volume, std::uint32_t before) const {
-  const std::uint32_t sample = g_->volumes[volume].sample;
+  std::uint32_t sample = g_->volumes[volume].sample;
+  const int light = sample < g_->sample_light.size() ? g_->sample_light[sample] : 0;
+  if (!g_->passes.empty()) sample += static_cast<std::uint32_t>(light);  // a light's own spans have a number, too
   PolygonToken t;
   t.layer = static_cast<int>(Layer::volumes);
   t.sample = static_cast<int>(sample);
   t.volume = static_cast<int>(number_[volume]);
   t.rank = static_cast<int>(before);
-  return {t, sample < g_->sample_light.size() ? g_->sample_light[sample] : 0};
+  return {t, g_->passes.empty() ? light : 0};
+}
+
+Place PolygonLayout::light_place(std::size_t light, std::uint32_t before) const {
+  const auto samples = std::upper_bound(g_->sample_light.begin(), g_->sample_light.end(), light);
+  PolygonToken t;
+  t.layer = static_cast<int>(Layer::volumes);
+  t.sample = static_cast<int>(samples - g_->sample_light.begin()) + static_cast<int>(light);
+  t.volume = counts_ ? g_->passes[light] : 0;
+  t.rank = static_cast<int>(before);
+  return {t, 1};
 }
 
 void PolygonLayout::add_to(PolygonReport& report) const {

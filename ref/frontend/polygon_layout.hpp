@@ -25,7 +25,7 @@ class Prices;
 /// Layout of a frame at the polygon level: which way each polygon goes in each of its roles.
 class PolygonLayout {
  public:
-  /// A polygon in one of its roles: drawn, face of a volume, or of a translucent fragment.
+  /// A polygon in one of its roles: drawn, face of a volume, of a translucent fragment, or drawn again with a light.
   struct Use {
     PolygonWay way;
     std::uint32_t before;  ///< how many that go as such stand before it: in its layer, or of its volume
@@ -45,10 +45,14 @@ class PolygonLayout {
   [[nodiscard]] Use translucent(std::size_t fragment, std::uint32_t n) const {
     return use(first_of_fragment_[fragment] + n);
   }
+  /// With linear light, in the pass of a light.
+  [[nodiscard]] Use lit(std::size_t light, std::size_t polygon) const { return use(first_lit(light) + polygon); }
   [[nodiscard]] const PolygonShape& shape(std::size_t polygon) const { return shapes_[polygon]; }
 
   /// The place of what stands between two faces of a volume: `before` of it go as such before it.
   [[nodiscard]] Place place(std::uint32_t volume, std::uint32_t before) const;
+  /// The same of what brings a light.
+  [[nodiscard]] Place light_place(std::size_t light, std::uint32_t before) const;
   /// How many faces of a volume go as such.
   [[nodiscard]] std::uint32_t made_of(std::uint32_t volume) const { return made_of_[volume]; }
 
@@ -57,6 +61,7 @@ class PolygonLayout {
 
  private:
   [[nodiscard]] Use use(std::size_t i) const { return {ways_[i], before_[i]}; }
+  [[nodiscard]] std::size_t first_lit(std::size_t light) const { return first_lit_ + light * g_->drawn; }
   [[nodiscard]] Kind span_of(std::size_t use) const;
   [[nodiscard]] std::uint32_t polygon_of(std::size_t use) const;
 
@@ -75,16 +80,19 @@ class PolygonLayout {
   const FrameGeometry* g_;
   std::uint32_t first_opaque_;
   std::vector<PolygonShape> shapes_;
-  // By number of the use: first drawn polygons, then faces of volumes, then polygons of fragments.
+  // By number of the use: first drawn polygons, then faces of volumes, then polygons of fragments, then drawn polygons
+  // once more for each light.
   std::vector<PolygonWay> ways_;
   std::vector<std::uint32_t> before_;
   std::size_t first_face_ = 0;
   std::size_t first_translucent_ = 0;
+  std::size_t first_lit_ = 0;
   std::vector<std::size_t> first_of_fragment_;
   std::vector<std::uint32_t> fragment_of_;  // from first_translucent_ on
   std::vector<std::uint32_t> made_of_;      // of each volume
   std::vector<std::uint32_t> number_;       // of each volume in its sample
   int active_ = 0;
+  bool counts_ = false;  // RESOLVE tells a light's samples
 };
 
 }  // namespace kage

@@ -28,8 +28,12 @@ PolygonToken depth_of(const Config& config, const ScreenPolygon& p, int first) {
   return plane_token(p.depth, first, derived::plane_bits(config));
 }
 
-PolygonToken gradient_of(const FrameGeometry& g, const ScreenPolygon& p, int first, int channel) {
-  PolygonToken t = plane_token(color_plane(g, p, static_cast<std::size_t>(channel)), first, kColorPlaneBits);
+PolygonToken gradient_of(const FrameGeometry& g, const Config& config, const ScreenPolygon& p, int first, int channel,
+                         std::size_t pass) {
+  ScreenPlane plane = color_plane(g, p, static_cast<std::size_t>(channel), pass);
+  if (p.light_planes >= 0)
+    plane.c += SpanSetup::color(config, level_bits(config, p, pass)).half() - SpanSetup::color(config, 8).half();
+  PolygonToken t = plane_token(plane, first, kColorPlaneBits);
   t.channel = channel;
   return t;
 }
@@ -40,7 +44,6 @@ PolygonShape ShapeFinder::find(const ScreenPolygon& p, bool drawn) {
   found_.clear();
   bool split = false;
   spans_.each(p, 0, g_->height, [&](int y, SpanToken& s, int winding) {
-    if (color && p.shade_cut < 0) spans_.paint(p, y, s);
     split = split || (!found_.empty() && found_.back().y == y);
     found_.push_back({y, s, winding});
   });
@@ -55,12 +58,23 @@ PolygonShape ShapeFinder::find(const ScreenPolygon& p, bool drawn) {
   if (split || !two_crossings(p, shape)) return both(PolygonWay::crossings);
   if (!fits(p.depth, derived::plane_bits(*config_))) return both(PolygonWay::wide);
   both(PolygonWay::polygon);
-  bool color_fits = true;
-  for (std::size_t c = 0; color && c < static_cast<std::size_t>(config_->channels); ++c)
-    color_fits = color_fits && fits(color_plane(*g_, p, c), kColorPlaneBits);
-  compare(p, shape, color && color_fits && p.shade_cut < 0);
-  if (color && p.shade_cut >= 0 && shape.as_drawn == PolygonWay::polygon) shape.as_drawn = PolygonWay::cut;
-  if (!color_fits && shape.as_drawn == PolygonWay::polygon) shape.as_drawn = PolygonWay::wide;
+  find_edges(p, shape);
+  compare(p, shape, std::nullopt);
+  if (!color || shape.as_drawn != PolygonWay::polygon) return shape;
+  if (p.shade_cut >= 0) {
+    shape.as_drawn = PolygonWay::cut;
+    return shape;
+  }
+  const std::size_t passes = p.light_planes >= 0 ? g_->passes.size() : 0;
+  for (std::size_t pass = 0; pass <= passes && shape.as_drawn == PolygonWay::polygon; ++pass) {
+    bool color_fits = true;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(config_->channels); ++c)
+      color_fits = color_fits && fits(color_plane(*g_, p, c, pass), kColorPlaneBits);
+    if (color_fits)
+      compare(p, shape, pass);
+    else
+      shape.as_drawn = PolygonWay::wide;
+  }
   return shape;
 }
 
@@ -86,7 +100,7 @@ bool ShapeFinder::fits(const ScreenPlane& plane, int bits) const {
   return beyond(plane.a, field) == 0 && beyond(plane.b, field) == 0;
 }
 
-void ShapeFinder::compare(const ScreenPolygon& p, PolygonShape& shape, bool color) {
+void ShapeFinder::find_edges(const ScreenPolygon& p, PolygonShape& shape) {
   edges_.clear();
   each_edge(g_->outline(p), shape, shape.first, shape.last + 1, [&](int y, const PolygonToken& edge) {
     edges_.push_back({y, edge});
@@ -99,17 +113,20 @@ void ShapeFinder::compare(const ScreenPolygon& p, PolygonShape& shape, bool colo
     more += words(Kind::EDGE) + (edges_[i].y == edges_[i - 1].y ? 0 : words(Kind::AT));
   }
   shape.words = at_most(more);
+}
 
+// Of depth and range, or with a pass of the colour.
+void ShapeFinder::compare(const ScreenPolygon& p, PolygonShape& shape, std::optional<std::size_t> pass) {
   Token t;
   t.polygon = depth_of(*config_, p, shape.first);
   if (config_->dsf_bits > 0) t.span.w = 1;
   for (std::size_t c = 0; c < static_cast<std::size_t>(config_->channels); ++c) t.span.color[c] = p.color[c];
   // In the volumes' layer a polygon has no colour.
   PolygonToken place;
-  place.layer = static_cast<int>(color ? Layer::opaque : Layer::volumes);
+  place.layer = static_cast<int>(pass ? Layer::opaque : Layer::volumes);
   ActivePolygon active(*config_, Place(place, 0), t);
-  for (int c = 0; color && p.color_planes >= 0 && c < config_->channels; ++c)
-    active.color[static_cast<std::size_t>(c)] = WalkedPlane(gradient_of(*g_, p, shape.first, c));
+  for (int c = 0; pass && has_color_planes(p) && c < config_->channels; ++c)
+    active.color[static_cast<std::size_t>(c)] = WalkedPlane(gradient_of(*g_, *config_, p, shape.first, c, *pass));
   auto edge = edges_.begin();
   auto next = found_.begin();
   const int end = std::min<int>(shape.end, g_->height);
@@ -127,8 +144,14 @@ void ShapeFinder::compare(const ScreenPolygon& p, PolygonShape& shape, bool colo
       shape.as_face = shape.as_drawn = PolygonWay::rounded;
       return;
     }
-    const SpanToken& s = next->span;
-    if (color && (made.color != s.color || made.dcolor != s.dcolor)) shape.as_drawn = PolygonWay::rounded;
+    if (pass) {
+      SpanToken s = next->span;
+      spans_.paint(p, y, *pass, s);
+      if (made.color != s.color || made.dcolor != s.dcolor) {
+        shape.as_drawn = PolygonWay::rounded;
+        return;
+      }
+    }
     ++next;
   }
   if (active.end != shape.end || next != found_.end()) shape.as_face = shape.as_drawn = PolygonWay::rounded;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -58,8 +59,11 @@ void each_edge(std::span<const ScreenVertex> outline, const PolygonShape& shape,
 /// Its depth's plane, as its POLYGON on line `first` has it. The slopes must fit.
 PolygonToken depth_of(const Config& config, const ScreenPolygon& p, int first);
 
-/// The plane of its colour in a channel, as GRADIENT has it. The slopes must fit.
-PolygonToken gradient_of(const FrameGeometry& g, const ScreenPolygon& p, int first, int channel);
+/// The plane of its colour in a channel, as GRADIENT has it. The slopes must fit. With linear light the front end adds
+/// half of a step of 256, and the plane has what a pixel of more bits wants in place of it.
+/// @param pass as color_plane() has it
+PolygonToken gradient_of(const FrameGeometry& g, const Config& config, const ScreenPolygon& p, int first, int channel,
+                         std::size_t pass);
 
 /// Finds shapes; keeps its buffers.
 class ShapeFinder {
@@ -83,7 +87,8 @@ class ShapeFinder {
 
   [[nodiscard]] bool two_crossings(const ScreenPolygon& p, PolygonShape& shape) const;
   [[nodiscard]] bool fits(const ScreenPlane& plane, int bits) const;
-  void compare(const ScreenPolygon& p, PolygonShape& shape, bool color);
+  void find_edges(const ScreenPolygon& p, PolygonShape& shape);
+  void compare(const ScreenPolygon& p, PolygonShape& shape, std::optional<std::size_t> pass);
 
   const FrameGeometry* g_;
   const Config* config_;

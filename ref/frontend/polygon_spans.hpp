@@ -15,9 +15,21 @@
 namespace kage {
 
 /// The plane of a polygon's colour in one channel, with SMOOTH.
-inline ScreenPlane color_plane(const FrameGeometry& g, const ScreenPolygon& p, std::size_t channel) {
+/// @param pass with linear light: 0 for that from everywhere, or 1 and on for a light's
+inline ScreenPlane color_plane(const FrameGeometry& g, const ScreenPolygon& p, std::size_t channel,
+                               std::size_t pass = 0) {
+  if (p.light_planes >= 0) return g.color_planes[static_cast<std::size_t>(p.light_planes) + 3 * pass + channel];
   if (p.color_planes >= 0) return g.color_planes[static_cast<std::size_t>(p.color_planes) + channel];
   return {0, 0, std::int64_t{p.color[channel]} << kPlaneFrac, 0, 0};
+}
+
+/// Whether its colour is not the same everywhere.
+inline bool has_color_planes(const ScreenPolygon& p) { return p.color_planes >= 0 || p.light_planes >= 0; }
+
+/// Bits of a channel that a pixel takes of it.
+inline int level_bits(const Config& config, const ScreenPolygon& p, std::size_t pass) {
+  if (p.light_planes < 0) return 8;
+  return pass == 0 ? derived::pixel_level_bits(config) : derived::lane_level_bits(config);
 }
 
 /// Makes spans of polygons; keeps its buffers.
@@ -53,21 +65,16 @@ class PolygonSpans {
   template <class Emit>
   void painted(const ScreenPolygon& p, int y, SpanToken& s, std::size_t pass, Emit emit) const {
     if (p.shade_cut >= 0 && config_->smooth != 0) return diced(p, y, p.shade_cut, s, pass, emit);
-    if (p.light_planes >= 0) {
-      for (std::size_t c = 0; c < channels(); ++c)
-        ramp(pass == 0 ? ambient_ : light_, plane(static_cast<std::uint32_t>(p.light_planes), pass, c), c, y, s);
-      return emit(s);
-    }
-    s.normal_class = span_class(p, *config_);
-    paint(p, y, s);
+    if (p.light_planes < 0) s.normal_class = span_class(p, *config_);
+    paint(p, y, pass, s);
     emit(s);
   }
 
   /// The colour of a span of a polygon on line y that is not diced.
-  void paint(const ScreenPolygon& p, int y, SpanToken& s) const {
+  void paint(const ScreenPolygon& p, int y, std::size_t pass, SpanToken& s) const {
     for (std::size_t c = 0; c < channels(); ++c) {
       s.color[c] = p.color[c];
-      if (config_->smooth != 0) ramp(color_, color_plane(*g_, p, c), c, y, s);
+      if (config_->smooth != 0) ramp(setup(p, pass), color_plane(*g_, p, c, pass), c, y, s);
     }
   }
 
@@ -80,6 +87,10 @@ class PolygonSpans {
 
  private:
   [[nodiscard]] std::size_t channels() const { return static_cast<std::size_t>(config_->channels); }
+
+  [[nodiscard]] const SpanSetup& setup(const ScreenPolygon& p, std::size_t pass) const {
+    return p.light_planes < 0 ? color_ : pass == 0 ? ambient_ : light_;
+  }
 
   [[nodiscard]] const ScreenPlane& plane(std::uint32_t first, std::size_t pass, std::size_t channel) const {
     return g_->color_planes[first + 3 * pass + channel];
@@ -99,8 +110,7 @@ class PolygonSpans {
       const Shade& shade = g_->shades[static_cast<std::size_t>(number)];
       SpanToken part = s;
       part.normal_class = derived::has_table(*config_) ? static_cast<int>(shade.normal_class) : span_class(p, *config_);
-      const SpanSetup& setup = p.light_planes < 0 ? color_ : pass == 0 ? ambient_ : light_;
-      for (std::size_t c = 0; c < channels(); ++c) ramp(setup, plane(shade.color_planes, pass, c), c, y, part);
+      for (std::size_t c = 0; c < channels(); ++c) ramp(setup(p, pass), plane(shade.color_planes, pass, c), c, y, part);
       return emit(part);
     }
     const ShadeCut& cut = g_->shade_cuts[static_cast<std::size_t>(at)];

@@ -64,6 +64,9 @@ class SpanSetup {
     return r;
   }
 
+  /// What is added to a start, in 2^-24.
+  [[nodiscard]] std::int64_t half() const { return half_ << shift_; }
+
   /// The step of a plane, whatever the span: what at() gives to every span that stays in range.
   [[nodiscard]] std::int64_t step(const ScreenPlane& plane) const {
     return static_cast<std::int64_t>(clamp(round(plane.a)));

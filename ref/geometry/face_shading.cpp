@@ -91,12 +91,12 @@ FaceShading::Shaded FaceShading::shade(std::uint32_t index, std::span<ClipPoint>
            false,
            {},
            false};
-  s.linear = derived::has_passes(*config_) && (t.alpha == 255 || config_->translucency == 0);
+  s.linear = config_->linear_bits > 0 && (t.alpha == 255 || config_->translucency == 0);
   if (s.linear)
     for (std::size_t l = 0; l < lighting_->lights(); ++l)
       s.before.push_back(table_->shadows_itself(s.side) ? s.side.count(*lights_, l, 1) : lights_->points_of(l));
   s.lit = !t.unlit && s.side.takes_shadow(*lights_);
-  s.classed = s.lit && !derived::has_passes(*config_) && (t.alpha == 255 || config_->translucency == 0);
+  s.classed = s.lit && config_->linear_bits == 0 && (t.alpha == 255 || config_->translucency == 0);
   if (s.classed) {
     const std::uint32_t number = table_->number(s.side);
     s.lit = number > 0;

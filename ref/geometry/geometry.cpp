@@ -42,7 +42,7 @@ FrameGeometry empty_geometry(const Task& task, int width, int height, const Samp
   const auto& background = task.look.background;
   out.background = task.config.channels == 1 ? background[1] : packed_color(background);
   out.sample_light = lights.light_of;
-  if (derived::has_passes(task.config))
+  if (task.config.linear_bits > 0)
     for (std::size_t l = 0; l < task.frame.lights.size(); ++l) out.passes.push_back(lights.points_of(l));
   out.sub_bits = task.look.sub_bits;
   out.polygons.reserve(task.frame.polygons.size());

@@ -72,7 +72,7 @@ LightTable::LightTable(const SceneFrame& frame, const Config& config, const Look
       diced_(config.smooth > 0 && look.max_shading > 0),
       numbers_(lights.casting * kChannels),
       known_(frame.polygons.size()) {
-  if (lights.casting == 0 || derived::has_passes(config)) return;  // light after light takes no shares
+  if (lights.casting == 0 || config.linear_bits > 0) return;  // light after light takes no shares
   WeightedVectors all;
   all.dimensions = numbers_;
   std::vector<Member> members;

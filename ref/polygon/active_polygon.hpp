@@ -130,7 +130,7 @@ struct ActivePolygon {
     const auto z = depth.at(s.xl, count, config.z_frac, derived::depth_bits(config));
     s.z = z.start;
     s.dz = z.step;
-    if (config.smooth == 0 || place.layer() == static_cast<int>(Layer::volumes)) return s;
+    if (config.smooth == 0 || (place.layer() == static_cast<int>(Layer::volumes) && !place.is_light(config))) return s;
     for (std::size_t c = 0; c < static_cast<std::size_t>(config.channels); ++c) {
       const auto ramp = color[c].at(s.xl, count, config.color_frac, derived::smooth_bits(config));
       s.color[c] = static_cast<std::int32_t>(ramp.start);

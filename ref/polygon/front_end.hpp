@@ -81,8 +81,12 @@ class FrontEnd {
     }
   }
 
-  [[nodiscard]] static constexpr Layer layer_of(Kind kind) {
-    return kind == Kind::OP ? Layer::opaque : kind == Kind::TP ? Layer::translucent : Layer::volumes;
+  /// Whether a span of this kind belongs to the line's place.
+  [[nodiscard]] bool belongs(Kind kind) const {
+    const auto layer = static_cast<Layer>(place_.layer());
+    if (layer == Layer::volumes)
+      return kind == Kind::OP ? place_.is_light(config_) : kind != Kind::TP && !place_.is_light(config_);
+    return kind == (layer == Layer::opaque ? Kind::OP : Kind::TP);
   }
   [[nodiscard]] bool has(int layer) const {
     return layer == 0 || (layer == 1 && config_.dsf_bits > 0) || (layer == 2 && config_.translucency > 0);
@@ -90,7 +94,8 @@ class FrontEnd {
 
   ErrorCode go_to(const Token& t) {
     const Place to(t.polygon, t.table.light);
-    const bool has_light = to.layer() != static_cast<int>(Layer::volumes) || to.light() < config_.lights;
+    const bool has_light =
+        to.layer() != static_cast<int>(Layer::volumes) || to.light() < derived::place_lights(config_);
     if (!has(to.layer()) || !has_light || (placed_ && to < place_)) return ErrorCode::PLACE;
     place_ = to;
     placed_ = true;
@@ -135,7 +140,7 @@ class FrontEnd {
 
   template <class Make, class Emit>
   ErrorCode span(const Token& t, Make make, Emit emit) {
-    if (!placed_ || place_.layer() != static_cast<int>(layer_of(t.kind))) return ErrorCode::PLACE;
+    if (!placed_ || !belongs(t.kind)) return ErrorCode::PLACE;
     if (const ErrorCode e = make_before(place_, make); e != ErrorCode::NONE) return e;
     if (const ErrorCode e = before(place_, t.span, make); e != ErrorCode::NONE) return e;
     if (t.kind != Kind::NC || t.span.xl != 0 || t.span.xr != width_) return emit(t, false);
@@ -174,7 +179,7 @@ class FrontEnd {
   ErrorCode make_span(ActivePolygon& p, Make make) {
     Token t;
     t.span = p.span(config_, width_);
-    t.kind = p.place.layer() == 0 ? Kind::OP : p.place.layer() == 1 ? Kind::SP : Kind::TP;
+    t.kind = kind_at(p.place);
     const Place place = p.place;
     if (p.end > line_ + 1) {
       p.next();
@@ -186,9 +191,22 @@ class FrontEnd {
     return make(t);
   }
 
-  /// Ends the volumes and samples that end before a span at this place.
+  [[nodiscard]] Kind kind_at(Place place) const {
+    switch (static_cast<Layer>(place.layer())) {
+      case Layer::opaque:
+        return Kind::OP;
+      case Layer::translucent:
+        return Kind::TP;
+      case Layer::volumes:
+        break;
+    }
+    return place.is_light(config_) ? Kind::OP : Kind::SP;
+  }
+
+  /// Makes what stands before a span at this place: the ends of volumes and samples, and the RESOLVE of a light.
   template <class Make>
   ErrorCode before(Place place, const SpanToken& s, Make make) {
+    if (place.is_light(config_)) return ends_.light(place, make);
     if (place.layer() == static_cast<int>(Layer::volumes)) return ends_.token(place, s.xl, s.xr, make);
     return place.layer() == static_cast<int>(Layer::translucent) ? ends_.end(make) : ErrorCode::NONE;
   }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "contract/derived.hpp"
 #include "kage/token.hpp"
 
 namespace kage {
@@ -36,7 +37,15 @@ class Place {
   [[nodiscard]] constexpr std::uint64_t number() const { return number_; }
   [[nodiscard]] constexpr int layer() const { return field(kLayerLsb, kLayerBits); }
   [[nodiscard]] constexpr int light() const { return field(kLightLsb, kLightPlaceBits); }
-  /// The same for all faces of a volume, and for nothing else.
+  /// With linear light: of a light's own spans, behind its volumes.
+  [[nodiscard]] constexpr bool is_light(const Config& config) const {
+    return config.linear_bits > 0 && layer() == static_cast<int>(Layer::volumes) && light() > 0;
+  }
+  /// The samples of that light.
+  [[nodiscard]] constexpr int samples(const Config& config) const {
+    return field(kVolumeLsb, derived::pass_samples_bits(config));
+  }
+  /// The same for all faces of a volume, or all of a light's own spans, and for nothing else.
   [[nodiscard]] constexpr std::uint64_t volume() const { return number_ >> kVolumeLsb; }
   /// The same for all volumes of a light's sample, and for nothing else.
   [[nodiscard]] constexpr std::uint64_t sample() const { return number_ >> kLightLsb; }

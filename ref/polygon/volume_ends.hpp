@@ -13,10 +13,10 @@ namespace kage {
 
 class VolumeEnds {
  public:
-  explicit VolumeEnds(const Config& config) : fsf_(config.fsf != 0), counts_(config.count_bits > 0) {}
+  explicit VolumeEnds(const Config& config) : config_(config) {}
 
   /// A line begins.
-  void start() { any_ = in_volume_ = in_sample_ = false; }
+  void start() { any_ = in_volume_ = in_sample_ = in_light_ = false; }
 
   /// A token of a volume at this place comes, over pixels [xl, xr); emit(token) what ends before it.
   template <class Emit>
@@ -27,20 +27,27 @@ class VolumeEnds {
       if (const ErrorCode e = end_sample(emit); e != ErrorCode::NONE) return e;
     volume_.add(in_volume_, xl, xr);
     any_ = in_volume_ = true;
+    in_light_ = false;
     place_ = place;
     return ErrorCode::NONE;
+  }
+
+  /// One of a light's own spans at this place comes: emit(token) the ends of its volumes, and its RESOLVE.
+  template <class Emit>
+  ErrorCode light(Place place, Emit emit) {
+    if (in_light_ && place.volume() == place_.volume()) return ErrorCode::NONE;
+    if (const ErrorCode e = end_volumes(emit); e != ErrorCode::NONE) return e;
+    in_light_ = true;
+    place_ = place;
+    return resolve(place.samples(config_), emit);
   }
 
   /// No more volumes on this line: emit(token) their ends and RESOLVE, if there were any.
   template <class Emit>
   ErrorCode end(Emit emit) {
     if (!any_) return ErrorCode::NONE;
-    if (const ErrorCode e = end_volume(emit); e != ErrorCode::NONE) return e;
-    if (const ErrorCode e = end_sample(emit); e != ErrorCode::NONE) return e;
-    any_ = false;
-    Token t;
-    t.kind = Kind::RESOLVE;
-    return emit(t);
+    if (const ErrorCode e = end_volumes(emit); e != ErrorCode::NONE) return e;
+    return resolve(0, emit);
   }
 
  private:
@@ -53,18 +60,35 @@ class VolumeEnds {
     }
   };
 
+  /// Those that are open.
+  template <class Emit>
+  ErrorCode end_volumes(Emit emit) {
+    if (in_volume_)
+      if (const ErrorCode e = end_volume(emit); e != ErrorCode::NONE) return e;
+    return in_sample_ ? end_sample(emit) : ErrorCode::NONE;
+  }
+
+  template <class Emit>
+  ErrorCode resolve(int samples, Emit emit) {
+    any_ = false;
+    Token t;
+    t.kind = Kind::RESOLVE;
+    t.samples = samples;
+    return emit(t);
+  }
+
   template <class Emit>
   ErrorCode end_volume(Emit emit) {
     sample_.add(in_sample_, volume_.xl, volume_.xr);
     in_sample_ = true;
     in_volume_ = false;
-    return fsf_ ? emit(made(Kind::EV, volume_)) : ErrorCode::NONE;
+    return config_.fsf != 0 ? emit(made(Kind::EV, volume_)) : ErrorCode::NONE;
   }
 
   template <class Emit>
   ErrorCode end_sample(Emit emit) {
     in_sample_ = false;
-    return counts_ ? emit(made(Kind::ES, sample_)) : ErrorCode::NONE;
+    return config_.count_bits > 0 ? emit(made(Kind::ES, sample_)) : ErrorCode::NONE;
   }
 
   [[nodiscard]] Token made(Kind kind, const Range& range) const {
@@ -76,12 +100,12 @@ class VolumeEnds {
     return t;
   }
 
-  bool fsf_;
-  bool counts_;
+  Config config_;
   bool any_ = false;
   bool in_volume_ = false;
   bool in_sample_ = false;
-  Place place_;  // of the open ones
+  bool in_light_ = false;  // the light at hand has its RESOLVE
+  Place place_;            // of the open ones, or of that light
   Range volume_;
   Range sample_;
 };

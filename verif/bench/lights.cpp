@@ -63,9 +63,9 @@ void step_errors() {
       c.shade_frac = 16;
       c.class_bits = s.class_bits;
       c.linear_bits = s.linear_bits;
-      c.lights = derived::has_passes(c) ? 1 : static_cast<int>(f.lights.size());
+      c.lights = c.linear_bits > 0 ? 1 : static_cast<int>(f.lights.size());
       c.count_bits = f.lights[0].shape != LightShape::point ? 4 : derived::has_table(c) ? 1 : 0;
-      if (f.lights.size() > 1 && !derived::has_table(c) && !derived::has_passes(c)) {
+      if (f.lights.size() > 1 && !derived::has_table(c) && c.linear_bits == 0) {
         fmt::print(" {:>15}", "");
         continue;
       }

@@ -48,6 +48,10 @@ std::vector<Inputs> trial_configurations() {
     c.active = 12, c.smooth = 1, c.color_frac = 6, c.dsf_bits = 3, c.count_bits = 2, c.lights = 3, c.class_bits = 3;
     c.translucency = 1, c.beat_words = 2;
   });
+  add("polygons_linear", [](Config& c) {
+    c.active = 12, c.linear_bits = 10, c.smooth = 1, c.color_frac = 6, c.dsf_bits = 3, c.count_bits = 2;
+    c.translucency = 1, c.beat_words = 2;
+  });
   return all;
 }
 

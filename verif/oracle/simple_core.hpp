@@ -126,6 +126,9 @@ class SimpleCore : private SimpleFrame {
       case Kind::IF:
         put(l_.if_w, s.w);
         break;
+      case Kind::RESOLVE:
+        put(l_.resolve_samples, s.samples);
+        break;
       case Kind::EV:
         range(l_.ev_xl, l_.ev_xr);
         break;

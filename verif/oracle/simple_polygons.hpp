@@ -18,7 +18,7 @@ namespace kage::verif {
 /// A span that the front end makes, or an end of spans.
 struct PlainSpan {
   Kind kind{};
-  std::int64_t xl = 0, xr = 0, w = 0, z = 0, dz = 0, normal_class = 0, alpha = 0, light = 0;
+  std::int64_t xl = 0, xr = 0, w = 0, z = 0, dz = 0, normal_class = 0, alpha = 0, light = 0, samples = 0;
   std::array<std::int64_t, 3> color{}, dcolor{};
 };
 
@@ -47,8 +47,9 @@ class SimplePolygons {
       case Kind::AT: {
         const Place to{field(l_.at_layer), field(l_.at_sample), field(l_.at_light), field(l_.at_volume),
                        field(l_.at_rank)};
+        const int lights = c_.linear_bits > 0 ? 2 : c_.lights;  // 1: spans that bring a light
         const bool layer =
-            to[0] == 0 || (to[0] == 1 && c_.dsf_bits > 0 && to[2] < c_.lights) || (to[0] == 2 && c_.translucency > 0);
+            to[0] == 0 || (to[0] == 1 && c_.dsf_bits > 0 && to[2] < lights) || (to[0] == 2 && c_.translucency > 0);
         if (!layer || (!place_.empty() && to < place_.back())) return Verdict::place;
         place_.push_back(to);
         return Verdict::done;
@@ -157,8 +158,13 @@ class SimplePolygons {
     return made(polygons_.back(), make) ? Verdict::done : Verdict::stopped;
   }
 
+  [[nodiscard]] bool brings_light(const Place& place) const {
+    return c_.linear_bits > 0 && place[0] == 1 && place[2] == 1;
+  }
+
   Verdict span(Kind kind, std::int64_t layer, std::int64_t xl, std::int64_t xr, const Make& make) {
-    if (place_.empty() || place_.back()[0] != layer) return Verdict::place;
+    if (place_.empty()) return Verdict::place;
+    if (brings_light(place_.back()) ? kind != Kind::OP : place_.back()[0] != layer) return Verdict::place;
     if (!before(place_.back(), make)) return Verdict::stopped;
     if (!ends(kind, place_.back(), {xl, xr}, make)) return Verdict::stopped;
     return Verdict::itself;
@@ -178,6 +184,7 @@ class SimplePolygons {
     if (!volumes_over(make)) return Verdict::stopped;
     ++line_;
     place_.clear();
+    lit_.clear();
     polygons_.erase(
         std::remove_if(polygons_.begin(), polygons_.end(), [&](const Polygon& p) { return p.end <= line_; }),
         polygons_.end());
@@ -239,6 +246,7 @@ class SimplePolygons {
     if (run.xl == run.xr) return true;
     static constexpr std::array<Kind, 3> kKinds{Kind::OP, Kind::SP, Kind::TP};
     PlainSpan s{.kind = kKinds[static_cast<std::size_t>(p.place[0])], .xl = run.xl, .xr = run.xr};
+    if (brings_light(p.place)) s.kind = Kind::OP;
     // Where the edge that goes up is at the left, the polygon is seen from the other side.
     if (c_.dsf_bits > 0) s.w = wrap(up < down ? -p.w : p.w, c_.dsf_bits + 1);
     if (s.kind == Kind::SP && s.w % (std::int64_t{1} << c_.dsf_bits) == 0) return true;
@@ -256,6 +264,7 @@ class SimplePolygons {
 
   /// Ends the volume and the sample that are over before a span at this place; then the span belongs to its volume.
   bool ends(Kind kind, const Place& place, const Run& run, const Make& make) {
+    if (brings_light(place)) return light_comes(place, make);
     if (kind == Kind::OP) return true;
     if (kind == Kind::TP) return volumes_over(make);
     const bool same_sample = std::equal(place.begin(), place.begin() + 3, of_.begin());
@@ -263,8 +272,19 @@ class SimplePolygons {
     if (!volume_.empty() && !same_volume && !volume_over(make)) return false;
     if (!sample_.empty() && !same_sample && !sample_over(make)) return false;
     of_ = place;
+    lit_.clear();
     volume_.push_back(run);
     return true;
+  }
+
+  /// The first of a light's spans on a line has the light's RESOLVE before it, and before that the ends of its volumes.
+  bool light_comes(const Place& place, const Make& make) {
+    const std::vector<std::int64_t> light(place.begin(), place.begin() + 4);
+    if (lit_ == light) return true;
+    if (!volume_.empty() && !volume_over(make)) return false;
+    if (!sample_.empty() && !sample_over(make)) return false;
+    lit_ = light;
+    return make({.kind = Kind::RESOLVE, .samples = place[3] % (std::int64_t{1} << c_.count_bits)});
   }
 
   static PlainSpan end_of(Kind kind, const std::vector<Run>& runs) {
@@ -305,6 +325,7 @@ class SimplePolygons {
   bool loose_ = false;
   Polygon fresh_;
   std::vector<Run> volume_, sample_;  // what the open ones have
+  std::vector<std::int64_t> lit_;     // the place but for its rank of the light that has its RESOLVE
   Place of_{};                        // of them
 };
 

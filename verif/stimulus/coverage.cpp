@@ -67,12 +67,12 @@ Coverage::Coverage(const Config& config, Level level) : config_(config), golden_
   behind_ = add(true, "depth", "OP behind what it meets");
   face_depth_ = add_ramp(c.units > 0, "depth", "a segment's depth");
   color_ = add_ramp(c.smooth != 0, "colour", "a span's colour");
-  unlit_ = add(shadows && !derived::has_passes(c), "light", "OP without light");
-  light_early_ = add(derived::has_passes(c), "light", "a light without a volume on its line");
-  light_again_ = add(derived::has_passes(c), "light", "a second light of a line");
-  light_tie_ = add(derived::has_passes(c), "light", "a light finds that it has come");
-  light_most_ = add(derived::has_passes(c), "light", "a light makes a pixel as bright as can be");
-  light_few_ = add(derived::has_passes(c) && c.count_bits > 0, "light", "a light of fewer samples than are counted");
+  unlit_ = add(shadows && c.linear_bits == 0, "light", "OP without light");
+  light_early_ = add(c.linear_bits > 0, "light", "a light without a volume on its line");
+  light_again_ = add(c.linear_bits > 0, "light", "a second light of a line");
+  light_tie_ = add(c.linear_bits > 0, "light", "a light finds that it has come");
+  light_most_ = add(c.linear_bits > 0, "light", "a light makes a pixel as bright as can be");
+  light_few_ = add(c.linear_bits > 0 && c.count_bits > 0, "light", "a light of fewer samples than are counted");
   last_class_ = add(table, "light", "OP of the table's last class");
   shade_none_ = add(has(Kind::SHADE) && !table, "light", "no SHADE");
   shade_zero_ = add(has(Kind::SHADE) && !table, "light", "SHADE of nothing");
@@ -267,7 +267,7 @@ void Coverage::before(std::uint32_t /*index*/, const Token& t, std::span<const s
       break;
     case Kind::RESOLVE:
       resolve(line);
-      if (!derived::has_passes(config_)) break;
+      if (config_.linear_bits == 0) break;
       hit(light_early_, !volume_);
       hit(light_again_, ++lights_ == 2);
       samples_ = t.samples;

@@ -120,7 +120,7 @@ std::array<std::uint64_t, kKinds> random_frame(Random& random, const Config& c, 
                                                                   : random.in(0, style.most_samples);
     for (int sample = 0; sample < samples; ++sample)
       any_volume |= random_sample(random, c, width, w, count, style, home);
-    for (int light = derived::has_passes(c) ? random.in(0, 3) : 0; light > 0; --light) {
+    for (int light = c.linear_bits > 0 ? random.in(0, 3) : 0; light > 0; --light) {
       const auto full = static_cast<int>(derived::most_count(c));
       w.resolve(random.chance(0.5) ? std::min(full, samples) : random.in(0, full));
       add(Kind::RESOLVE);

@@ -118,7 +118,7 @@ class RandomPolygons {
     at.fields.sample = number(2, kSampleBits);
     at.fields.volume = number(2, kVolumeBits);
     at.fields.rank = number(40, kRankBits);
-    at.light = random_->in(0, c_.lights - 1);
+    at.light = random_->in(0, derived::place_lights(c_) - 1);
     return at;
   }
 
@@ -278,7 +278,8 @@ class RandomPolygons {
 
   void span(const Position& at) {
     SpanToken s = random_span(*random_, c_, width_, style_.spans, home_, classes_);
-    switch (static_cast<Layer>(at.fields.layer)) {
+    const Layer layer = at.place().is_light(c_) ? Layer::opaque : static_cast<Layer>(at.fields.layer);
+    switch (layer) {
       case Layer::opaque:
         w_->op(s);
         add(Kind::OP);

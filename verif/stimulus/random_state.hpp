@@ -190,7 +190,7 @@ class RandomState {
     const bool has_faces = with_tree_ || (c.units > 0 && random.chance(0.2));
     const bool faces_first = random.chance(0.5);
     if (has_faces && faces_first) tree_.write_faces(w, of(Kind::FACE), table);
-    if (c.dsf_bits > 0 && !derived::has_table(c) && !derived::has_passes(c) && random.chance(0.8)) {
+    if (c.dsf_bits > 0 && !derived::has_table(c) && c.linear_bits == 0 && random.chance(0.8)) {
       const auto all = static_cast<int>(derived::whole_share(c));
       w.shade(static_cast<std::uint32_t>(random.chance(0.1) ? 0 : random.chance(0.1) ? all : random.in(0, all)));
       ++of(Kind::SHADE);

@@ -221,7 +221,7 @@ struct RuleInfo {
 };
 
 /// All rules, in the order of the definition file.
-inline constexpr std::array<RuleInfo, 10> kRules{{
+inline constexpr std::array<RuleInfo, 9> kRules{{
     {"FSF needs DSF_BITS > 0: it collects what DSF counts", "FSF == 0 || DSF_BITS > 0",
      [](const Config& c) { return c.fsf == 0 || c.dsf_bits > 0; }, [](Config& c) { c.fsf = 0; }},
     {"COUNT_BITS > 0 needs DSF_BITS > 0: it counts samples in shadow", "COUNT_BITS == 0 || DSF_BITS > 0",
@@ -232,8 +232,6 @@ inline constexpr std::array<RuleInfo, 10> kRules{{
      [](const Config& c) { return c.lights == 1 || (c.count_bits > 0 && c.class_bits > 1); }, [](Config& c) { c.lights = 1; }},
     {"LINEAR_BITS > 0 needs DSF_BITS > 0, SMOOTH, LIGHTS 1 and CLASS_BITS 1: light after light has one counter and no table", "LINEAR_BITS == 0 || (DSF_BITS > 0 && SMOOTH > 0 && LIGHTS == 1 && CLASS_BITS == 1)",
      [](const Config& c) { return c.linear_bits == 0 || (c.dsf_bits > 0 && c.smooth > 0 && c.lights == 1 && c.class_bits == 1); }, [](Config& c) { c.linear_bits = 0; }},
-    {"LINEAR_BITS > 0 needs ACTIVE 0: light after light comes by spans", "LINEAR_BITS == 0 || ACTIVE == 0",
-     [](const Config& c) { return c.linear_bits == 0 || c.active == 0; }, [](Config& c) { c.active = 0; }},
     {"LINEAR_BITS > 0 needs COLOR_FRAC of LINEAR_BITS + COUNT_BITS - 8 at least: a sample's part of linear light", "LINEAR_BITS + COUNT_BITS <= 8 + COLOR_FRAC || LINEAR_BITS == 0",
      [](const Config& c) { return c.linear_bits + c.count_bits <= 8 + c.color_frac || c.linear_bits == 0; }, [](Config& c) { c.color_frac = c.linear_bits + c.count_bits - 8; }},
     {"COLOR_FRAC > 0 needs SMOOTH: a flat colour has no fraction", "COLOR_FRAC == 0 || SMOOTH > 0",
@@ -268,7 +266,7 @@ enum class Kind : std::uint8_t {
   IF = 9,  ///< the eye is inside the volume for the whole line
   EV = 10,  ///< end of a volume
   ES = 11,  ///< end of a light sample
-  RESOLVE = 12,  ///< darken what is in shadow; with LINEAR_BITS: of the light whose opaque spans follow so many samples have been tried
+  RESOLVE = 12,  ///< darken what is in shadow; with LINEAR_BITS: a light's opaque spans follow, and so many samples of it have been tried
   TP = 13,  ///< translucent span, back to front
   EOL = 14,  ///< end of the line with number y
   END = 15,  ///< end of the frame

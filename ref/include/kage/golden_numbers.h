@@ -71,7 +71,7 @@ enum {
   KAGE_KIND_IF = 9, /**< the eye is inside the volume for the whole line */
   KAGE_KIND_EV = 10, /**< end of a volume */
   KAGE_KIND_ES = 11, /**< end of a light sample */
-  KAGE_KIND_RESOLVE = 12, /**< darken what is in shadow; with LINEAR_BITS: of the light whose opaque spans follow so many samples have been tried */
+  KAGE_KIND_RESOLVE = 12, /**< darken what is in shadow; with LINEAR_BITS: a light's opaque spans follow, and so many samples of it have been tried */
   KAGE_KIND_TP = 13, /**< translucent span, back to front */
   KAGE_KIND_EOL = 14, /**< end of the line with number y */
   KAGE_KIND_END = 15, /**< end of the frame */

@@ -92,9 +92,6 @@ end
 if (!(LINEAR_BITS == 0 || (DSF_BITS > 0 && SMOOTH > 0 && LIGHTS == 1 && CLASS_BITS == 1))) begin : gen_bad_linear_alone
   `KAGE_ILLEGAL("LINEAR_BITS > 0 needs DSF_BITS > 0, SMOOTH, LIGHTS 1 and CLASS_BITS 1: light after light has one counter and no table")
 end
-if (!(LINEAR_BITS == 0 || ACTIVE == 0)) begin : gen_bad_linear_spans
-  `KAGE_ILLEGAL("LINEAR_BITS > 0 needs ACTIVE 0: light after light comes by spans")
-end
 if (!(LINEAR_BITS + COUNT_BITS <= 8 + COLOR_FRAC || LINEAR_BITS == 0)) begin : gen_bad_linear_frac
   `KAGE_ILLEGAL("LINEAR_BITS > 0 needs COLOR_FRAC of LINEAR_BITS + COUNT_BITS - 8 at least: a sample's part of linear light")
 end

@@ -25,7 +25,6 @@ localparam int EdgeRestBits = 24,  // of an edge's remainders and height in subp
 localparam int EndLineBits = 17,  // of the line behind an edge's last, signed
 localparam bit HasTable = CLASS_BITS > 1,  // a light's share is looked up in a table, by class
 localparam bit HasLoads = TRANSLUCENCY > 0 && (COUNT_BITS > 0 || LINEAR_BITS > 0),  // colours come back: a line with samples leaves to be darkened, or one with linear light to be displayed, before its first TP
-localparam bit HasPasses = LINEAR_BITS > 0,  // a line's lights are added one after the other
 localparam logic [Z_BITS-1:0] ClearDepth = Z_BITS'((1 << Z_BITS) - 1),  // a pixel's depth where nothing has been drawn
 localparam logic [Z_BITS-1:0] MostDepth = Z_BITS'((1 << Z_BITS) - 2),  // the greatest depth that is drawn; the least is 1
 localparam logic [FACE_BITS-1:0] BlankFace = FACE_BITS'((1 << FACE_BITS) - 1),  // the face of a segment that shows nothing
@@ -54,6 +53,7 @@ localparam int SlopeBits = SMOOTH > 0 ? ColorBits : 1,  // a span's colour slope
 localparam int DsfBits = DSF_BITS > 0 ? DSF_BITS : 1,  // shadow counter, bias
 localparam int ClassBits = DSF_BITS > 0 && LINEAR_BITS == 0 ? CLASS_BITS : 0,  // the class of a pixel, a face, and the tree's pixel
 localparam int LightBits = LIGHTS > 4 ? 3 : (LIGHTS > 2 ? 2 : 1),  // a light's number
+localparam int PlaceLights = LIGHTS + (LINEAR_BITS > 0 ? 1 : 0),  // lights of a place; with linear light 1 says the light's own spans
 localparam int LightAt = FSF > 0 ? 0 : DsfBits,  // ES's light in its command's count; below it, without FSF, the bias
 localparam int SampleEndBits = LIGHTS > 1 ? LightAt + LightBits : 1,  // ES in its command's count
 localparam int PassRestBits = COUNT_BITS > 0 && LINEAR_BITS > 0 ? COUNT_BITS : DsfBits,  // samples, or without counters bias, of an OP behind a RESOLVE

@@ -23,7 +23,7 @@ constexpr std::array<WayText, kPolygonWays> kTexts{{
     {"crossings", "more than one span on a line"},
     {"wide", "too steep for a field"},
     {"rounded", "clamped depth or colour"},
-    {"cut", "cut by other translucent faces"},
+    {"cut", "parted by other translucent faces or by dicing"},
     {"words", "no fewer words"},
     {"active", "more at once than ACTIVE"},
     {"place", "too many in a volume"},

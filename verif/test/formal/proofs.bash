@@ -61,12 +61,16 @@ proof active_list rtl="active_list ram_1r1w" own_assertions=yes steps=9 inductio
   inside_kept=dut.kept_q inside_all=dut.all_q$list_memory"
 
 # ---- volume_ends -----------------------------------------------------------------------------------------------------
-proof volume_ends rtl="volume_ends stream_register" own_assertions=yes steps=8 induction=2 defect_steps=10 cover=10 inside="inside_any=dut.any_q
+ends_inside="inside_any=dut.any_q
   inside_volume=dut.volume_here_q inside_sample=dut.sample_here_q inside_there=dut.item_valid inside_family=dut.family_q
   inside_volume_xl=dut.volume_xl_q inside_volume_xr=dut.volume_xr_q inside_sample_xl=dut.sample_xl_q
-  inside_sample_xr=dut.sample_xr_q inside_none=dut.is_q[5] inside_of_volume=dut.is_q[4] inside_behind=dut.is_q[3]
-  inside_other_volume=dut.is_q[2] inside_other_sample=dut.is_q[1] inside_whole=dut.is_q[0] inside_kind=dut.token_q[3:0]
-  inside_header=dut.flags_q[8]"
+  inside_sample_xr=dut.sample_xr_q inside_none=dut.is_q[6] inside_of_volume=dut.is_q[5] inside_of_light=dut.is_q[4]
+  inside_behind=dut.is_q[3] inside_other_volume=dut.is_q[2] inside_other_sample=dut.is_q[1] inside_whole=dut.is_q[0]
+  inside_kind=dut.token_q[3:0] inside_header=dut.flags_q[8] inside_pass=dut.pass_here_q
+  inside_samples=dut.samples_q"
+proof volume_ends rtl="volume_ends stream_register" own_assertions=yes steps=8 induction=2 defect_steps=10 cover=10 inside="$ends_inside"
+proof volume_ends_linear module=volume_ends rtl="volume_ends stream_register" own_assertions=yes steps=8 induction=2 defect_steps=10 \
+  cover=10 inside="$ends_inside" set="LIGHTS=1 SMOOTH=1 COLOR_FRAC=4 COUNT_BITS=2 LINEAR_BITS=10"
 
 # ---- async_fifo ------------------------------------------------------------------------------------------------------
 async_cover=([4]=48 [8]=72)

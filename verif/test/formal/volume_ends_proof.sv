@@ -6,6 +6,8 @@
 //   resolved       RESOLVE comes once, behind the last end;
 //   all_ended      a TP and an EOL come behind all of that;
 //   one_volume     a span joins the volume that is open only if it is of it, and the sample likewise;
+//   lit            with linear light one of a light's own spans comes behind the RESOLVE of that light, with no volume
+//                  between, and that RESOLVE tells the light's samples;
 //   steady         a token that waits stays as it is.
 //
 // How: by induction. The proof reads the tokens that leave, and keeps their spans' least and greatest ends; of items it
@@ -91,7 +93,8 @@ module volume_ends_proof #(
   assign item_kind = item_token[KindBits-1:0];
   logic started_q = 1'b0;
   always_ff @(posedge clk_i) started_q <= 1'b1;
-  logic of_volume_kind, ends_kind;
+  logic of_volume_kind, ends_kind, lights;
+  assign lights = LINEAR_BITS > 0 && layer == 2'd1 && family[VolumeBits];
   assign of_volume_kind = item_kind == KindSp || item_kind == KindNc;
   assign ends_kind = item_kind == KindEv || item_kind == KindEs || item_kind == KindIf || item_kind == KindResolve;
   always_comb begin
@@ -103,7 +106,7 @@ module volume_ends_proof #(
         assume (!whole && !ends_kind && !of_volume_kind && item_kind != KindTp && item_kind != KindEol);
         else begin
           assume (of_volume_kind || item_kind == KindOp || item_kind == KindTp || item_kind == KindEol);
-          assume (!of_volume_kind || layer == 2'd1);
+          assume (!of_volume_kind || (layer == 2'd1 && !lights));
           assume (!whole || item_kind == KindNc);
         end
     assume (!flags.header || plain);
@@ -113,6 +116,9 @@ module volume_ends_proof #(
   logic fire, spans, all_of_line, any_q, volume_q, sample_q;
   logic [X_BITS-1:0] xl, xr, volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
   logic [FamilyBits-1:0] family_q, item_family_q;  // of the last span of a volume; of the item that is held
+  logic item_light_q = 1'b0;  // which is one of a light's own spans
+  logic pass_q;  // that light's RESOLVE is the last before it, and spans of it
+  logic [FamilyBits-1:0] pass_family_q, last_family_q;  // of that light; of the last span of a volume or a light
   logic [KindBits-1:0] kind;
   flags_t out_flags;
   assign out_flags = token_flags;
@@ -123,7 +129,15 @@ module volume_ends_proof #(
   assign xl = all_of_line ? '0 : token[RangeXlLsb+:X_BITS];
   assign xr = all_of_line ? Width : token[RangeXrLsb+:X_BITS];
   always_ff @(posedge clk_i) begin
-    if (item_valid_i && item_ready) item_family_q <= family;
+    if (item_valid_i && item_ready) begin
+      item_family_q <= family;
+      item_light_q  <= lights && !plain && (item_made_i || item_kind == KindOp);
+    end
+    if (!rst_ni || flush_i || (valid && out_flags.header)) pass_q <= 1'b0;
+    else if (fire && kind == KindResolve) pass_q <= item_light_q;
+    else if (fire && kind != KindEv && kind != KindEs && !item_light_q) pass_q <= 1'b0;
+    if (fire && kind == KindResolve) pass_family_q <= item_family_q;
+    if (fire && (spans || (item_light_q && kind == KindOp))) last_family_q <= item_family_q;
     if (!rst_ni || flush_i || (valid && out_flags.header)) begin
       {any_q, volume_q, sample_q} <= '0;
     end else if (fire) begin
@@ -159,7 +173,14 @@ module volume_ends_proof #(
       if (valid) begin
         if (kind == KindEv) volume_range : assert (volume_q && xl == volume_xl_q && xr == volume_xr_q);
         if (kind == KindEs) sample_range : assert (!volume_q && sample_q && xl == sample_xl_q && xr == sample_xr_q);
-        if (kind == KindResolve) resolved : assert (any_q && !volume_q && !sample_q);
+        if (kind == KindResolve) begin
+          resolved :
+          assert (!volume_q && !sample_q && (any_q || (item_light_q && !(pass_q && pass_family_q == item_family_q))));
+          if (COUNT_BITS > 0 && item_light_q && LINEAR_BITS > 0)
+            samples_told : assert (token[ResolveSamplesLsb+:COUNT_BITS] == item_family_q[0+:COUNT_BITS]);
+        end
+        if (item_light_q && kind == KindOp)
+          lit : assert (pass_q && pass_family_q == item_family_q && !any_q && !volume_q && !sample_q);
         if (kind == KindTp || kind == KindEol) all_ended : assert (!any_q && !volume_q && !sample_q);
         if (spans) one_volume : assert ((!volume_q || item_family_q == family_q) && (!sample_q || same_sample));
         wide : cover (kind == KindEs && xl == X_BITS'(1) && xr == X_BITS'(5) && fire);
@@ -170,23 +191,39 @@ module volume_ends_proof #(
 
   // ---- for induction -----------------------------------------------------------------------------------------------
   (* keep *) logic inside_any, inside_volume, inside_sample, inside_of_volume, inside_none, inside_other_volume;
-  (* keep *) logic inside_other_sample, inside_there, inside_whole, inside_behind;
+  (* keep *) logic inside_other_sample, inside_there, inside_whole, inside_behind, inside_of_light, inside_pass;
+  (* keep *) logic [(COUNT_BITS > 0 && LINEAR_BITS > 0 ? COUNT_BITS : 1)-1:0] inside_samples;
   (* keep *) logic [X_BITS-1:0] inside_volume_xl, inside_volume_xr, inside_sample_xl, inside_sample_xr;
   (* keep *) logic [FamilyBits-1:0] inside_family;
   (* keep *) logic [KindBits-1:0] inside_kind;
   (* keep *) logic inside_header;
   always_comb begin
+    if (LINEAR_BITS == 0 && started_q) lemma_no_light : assert (!item_light_q && !pass_q);
     if (started_q && rst_ni && !flush_i) begin
       lemma_open : assert (inside_any == any_q && inside_volume == volume_q && inside_sample == sample_q);
       lemma_any : assert (any_q || !(volume_q || sample_q));
       if (volume_q) lemma_volume : assert (inside_volume_xl == volume_xl_q && inside_volume_xr == volume_xr_q);
       if (sample_q) lemma_sample : assert (inside_sample_xl == sample_xl_q && inside_sample_xr == sample_xr_q);
+      if (inside_there && !inside_none) begin
+        lemma_light : assert (inside_of_light == item_light_q && !(inside_of_light && inside_kind != KindOp));
+      end
+      if (!inside_there || inside_none) begin
+        lemma_pass : assert (inside_pass == pass_q && (!pass_q || inside_family == pass_family_q));
+      end else if (inside_there && inside_of_light) begin
+        lemma_light_family :
+        assert (inside_family == item_family_q && inside_samples == item_family_q[0+:$bits(inside_samples)]);
+        lemma_lit : assert (inside_pass == (pass_q && pass_family_q == item_family_q));
+        lemma_lit_ends : assert (!inside_pass || !(any_q || volume_q || sample_q));
+      end else begin
+        lemma_not_lit : assert (!inside_pass);
+      end
+      if (pass_q) lemma_pass_ends : assert (!(any_q || volume_q || sample_q));
       if (inside_there && inside_of_volume && !inside_none) begin
         lemma_family : assert (inside_family == item_family_q);
         if (volume_q || sample_q)
           lemma_other :
           assert (inside_other_volume == (item_family_q != family_q) && inside_other_sample == !same_sample);
-      end else if (volume_q || sample_q) begin
+      end else if ((volume_q || sample_q) && !(inside_there && inside_of_light && !inside_none)) begin
         lemma_last : assert (inside_family == family_q);
       end
       if (inside_there && !inside_none) begin
@@ -196,7 +233,8 @@ module volume_ends_proof #(
         lemma_whole : assert (inside_whole == (inside_kind == KindIf));
         lemma_no_end : assert (inside_kind != KindEv && inside_kind != KindEs && inside_kind != KindResolve);
       end
-      if (inside_there && inside_header) lemma_header : assert (!inside_of_volume && !inside_behind && !inside_none);
+      if (inside_there && inside_header)
+        lemma_header : assert (!inside_of_volume && !inside_of_light && !inside_behind && !inside_none);
     end
   end
 endmodule

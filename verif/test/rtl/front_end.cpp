@@ -12,6 +12,7 @@
 #include "Vfront_end_glass.h"
 #include "Vfront_end_grey.h"
 #include "Vfront_end_lights.h"
+#include "Vfront_end_linear.h"
 #include "bench.hpp"
 #include "kage/stream.hpp"
 #include "stimulus/damage.hpp"
@@ -340,6 +341,10 @@ TEST_CASE("front_end makes the golden front end's tokens with smooth colour and 
 
 TEST_CASE("front_end makes the golden front end's tokens with lights, counts and units", "[front_end]") {
   front_end_test<Vfront_end_lights>();
+}
+
+TEST_CASE("front_end makes the golden front end's tokens with linear light", "[front_end]") {
+  front_end_test<Vfront_end_linear>();
 }
 
 TEST_CASE("front_end makes the golden front end's tokens without shadows", "[front_end]") {

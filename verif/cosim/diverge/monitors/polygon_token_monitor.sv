@@ -50,7 +50,7 @@ module polygon_token_monitor #(
     logic [PlaceBits-1:0] place;
     logic [LayerBits-1:0] layer, of_span;
     longint bottom, end_line;
-    logic level;
+    logic level, of_light;
     expected = '0;
     kind = token_i[KindBits-1:0];
     place = token_i[AtRankLsb+:PlaceBits];
@@ -71,13 +71,19 @@ module polygon_token_monitor #(
         end
       endcase
     end
-    of_span = kind == KindOp ? 2'd0 : kind == KindTp ? 2'd2 : 2'd1;
+    // With linear light: the place is of a light's own spans, which are OPs.
+    of_light = LINEAR_BITS > 0 && place_q[PlaceBits-1-:LayerBits] == 2'd1 &&
+        place_q[RankBits+VolumeBits+:LightPlaceBits] == 3'd1;
+    of_span = kind == KindOp && !of_light ? 2'd0 : kind == KindTp ? 2'd2 : 2'd1;
     if (expected.at_token) begin
       expected.misplaced = layer == 2'd3 || (layer == 2'd2 && TRANSLUCENCY == 0) || (layer == 2'd1 && DSF_BITS == 0) ||
-          (layer == 2'd1 && 32'(place[RankBits+VolumeBits+:LightPlaceBits]) >= LIGHTS) || (placed_q && place < place_q);
+          (placed_q && place < place_q);
+      if (layer == 2'd1 && 32'(place[RankBits+VolumeBits+:LightPlaceBits]) >= LIGHTS + (LINEAR_BITS > 0 ? 1 : 0))
+        expected.misplaced = 1'b1;
     end
     if (expected.polygon || expected.edge_token || expected.span) expected.misplaced = !placed_q;
     if (expected.span && place_q[PlaceBits-1-:LayerBits] != of_span) expected.misplaced = 1'b1;
+    if (expected.span && of_light && kind != KindOp) expected.misplaced = 1'b1;
     if (expected.gradient) expected.misplaced = 32'(token_i[GradientChannelLsb+:2]) >= CHANNELS;
     expected.flushes = (expected.polygon || expected.edge_token || expected.span || expected.eol) &&
         !expected.misplaced;

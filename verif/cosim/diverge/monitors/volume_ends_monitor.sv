@@ -40,7 +40,8 @@ module volume_ends_monitor #(
   int head_q = 0, tail_q = 0;
   bit fault_q;  // a token at fault has come: what is behind it does not matter
   bit any_q, volume_q, sample_q;  // something is to be resolved; a volume, a sample is open
-  logic [FamilyBits-1:0] family_q;
+  bit light_q;  // spans of a light are at hand, whose RESOLVE has come
+  logic [FamilyBits-1:0] family_q, light_family_q;
   int volume_xl_q, volume_xr_q, sample_xl_q, sample_xr_q;
   int waited_q;  // clocks in which a token was due and none was there
 
@@ -93,19 +94,20 @@ module volume_ends_monitor #(
     logic [LayerBits-1:0] layer;
     logic [KindBits-1:0] kind;
     logic [Wide-1:0] word;
-    bit of_volume, behind, none;
+    bit of_volume, of_light, behind, none;
     int xl, xr;
     if (fault_q && (item_made_i || !flags.header)) return;
     fault_q = !item_made_i && flags.fault != ErrNone;
     layer = family[FamilyBits-1-:LayerBits];
     kind = token[KindBits-1:0];
-    none = item_made_i && (span.empty || (layer == 2'd1 && (DSF_BITS == 0 ||
+    of_light = LINEAR_BITS > 0 && !plain && layer == 2'd1 && family[VolumeBits] && (item_made_i || kind == KindOp);
+    none = item_made_i && (span.empty || (layer == 2'd1 && !of_light && (DSF_BITS == 0 ||
         DsfBits'(span.look >> (PolygonWLsb - KindBits)) == '0)));
     if (none) return;
-    of_volume = !plain && DSF_BITS > 0 &&
+    of_volume = !plain && DSF_BITS > 0 && !of_light &&
         (item_made_i ? layer == 2'd1 : kind_has_range(kind) && kind != KindOp && kind != KindTp);
     behind = !plain && (item_made_i ? layer == 2'd2 : kind == KindTp || kind == KindEol);
-    if (volume_q && (behind || (of_volume && family != family_q))) begin
+    if (volume_q && (behind || of_light || (of_volume && family != family_q))) begin
       word = '0;
       word[KindBits-1:0] = KindEv;
       word[EvXlLsb+:X_BITS] = X_BITS'(volume_xl_q);
@@ -117,7 +119,8 @@ module volume_ends_monitor #(
       sample_q = 1'b1;
     end
     if (sample_q && !volume_q &&
-        (behind || (of_volume && family[FamilyBits-1:VolumeBits] != family_q[FamilyBits-1:VolumeBits]))) begin
+        (behind || of_light ||
+        (of_volume && family[FamilyBits-1:VolumeBits] != family_q[FamilyBits-1:VolumeBits]))) begin
       word = '0;
       word[KindBits-1:0] = KindEs;
       word[EsXlLsb+:X_BITS] = X_BITS'(sample_xl_q);
@@ -126,12 +129,18 @@ module volume_ends_monitor #(
       if (COUNT_BITS > 0) due('0, word);
       sample_q = 1'b0;
     end
-    if (any_q && behind) begin
-      due('0, Wide'(KindResolve));
+    if ((any_q && behind) || (of_light && !(light_q && family == light_family_q))) begin
+      word = '0;
+      word[KindBits-1:0] = KindResolve;
+      if (of_light && COUNT_BITS > 0)
+        word[ResolveSamplesLsb+:(COUNT_BITS>0?COUNT_BITS : 1)] = family[0+:(COUNT_BITS>0?COUNT_BITS : 1)];
+      due('0, word);
       any_q = 1'b0;
+      light_q = of_light;
+      light_family_q = family;
     end
     word = Wide'(token);
-    if (item_made_i) word = made(layer);
+    if (item_made_i) word = made(of_light ? 2'd0 : layer);
     xl = 32'(X_BITS'(word >> RangeXlLsb));
     xr = 32'(X_BITS'(word >> RangeXrLsb));
     if (!item_made_i && whole && DSF_BITS > 0) begin
@@ -142,7 +151,8 @@ module volume_ends_monitor #(
       xr = 32'(width_i);
     end
     due(item_made_i ? '0 : flags, word);
-    if (!item_made_i && flags.header) {any_q, volume_q, sample_q} = '0;
+    if (!item_made_i && flags.header) {any_q, volume_q, sample_q, light_q} = '0;
+    if (behind || of_volume) light_q = 1'b0;
     if (!of_volume) return;
     if (!volume_q || xl < volume_xl_q) volume_xl_q = xl;
     if (!volume_q || xr > volume_xr_q) volume_xr_q = xr;
@@ -154,7 +164,7 @@ module volume_ends_monitor #(
   always @(posedge clk_i) begin
     if (!rst_ni || flush_i) begin
       head_q = tail_q;
-      {fault_q, any_q, volume_q, sample_q} = '0;
+      {fault_q, any_q, volume_q, sample_q, light_q} = '0;
       waited_q = 0;
     end else begin
       if (token_valid_o) begin
