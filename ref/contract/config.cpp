@@ -217,10 +217,10 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
   if (needs.shadows && needs.several_volumes && config.fsf == 0 && config.dsf_bits <= 1)
     missing.emplace_back("several volumes (FSF)");
   if (needs.shadows && needs.lights > config.lights && config.linear_bits == 0)
-    missing.push_back(
-        needs.lights > most_lights()
-            ? fmt::format("shadows of {} lights (a core has LIGHTS {} at most)", needs.lights, most_lights())
-            : fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
+    missing.push_back(needs.lights > most_lights()
+                          ? fmt::format("shadows of {} lights (LINEAR_BITS; a table has LIGHTS {} at most)",
+                                        needs.lights, most_lights())
+                          : fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
   if (needs.shadows && needs.samples > 1 && needs.samples >> config.count_bits != 0)
     missing.push_back(
         fmt::format("soft shadows (COUNT_BITS >= {})", std::bit_width(static_cast<unsigned>(needs.samples))));
@@ -249,11 +249,11 @@ std::string widened(Config config, const Needs& needs) {
   config.x_bits = std::max(config.x_bits, static_cast<int>(std::bit_width(width)));
   // ceil(log2 width) keeps the error in depth near half an LSB up to the end of a line.
   config.z_frac = std::max(config.z_frac, static_cast<int>(std::bit_width(width - 1)));
-  if (config.lights > 1) {
-    config.lights = std::max(config.lights, needs.lights);
+  if (config.lights > 1) config.lights = std::max(config.lights, needs.lights);
+  if (config.lights > 1 || config.linear_bits > 0)
     config.count_bits =
         std::max(config.count_bits, static_cast<int>(std::bit_width(static_cast<unsigned>(needs.samples))));
-  }
+  if (config.linear_bits > 0) config.color_frac = std::max(config.color_frac, derived::lane_level_bits(config) - 8);
   std::string line;
   for (const ParamInfo& p : kParams) {
     if (config.*(p.member) > p.max) return "";
@@ -266,11 +266,6 @@ std::string widened(Config config, const Needs& needs) {
 }  // namespace
 
 NamedConfig choose_config(const Needs& needs) {
-  if (needs.shadows && needs.lights > most_lights())
-    throw Error(
-        fmt::format("{} lights cast shadows, and a core tells at most {} apart; with a configuration given, "
-                    "--degrade lets the first one cast alone",
-                    needs.lights, most_lights()));
   std::string nearest;
   std::vector<std::string> lacking;
   for (const NamedConfig& n : named_configs()) {

@@ -127,6 +127,7 @@ void LightTable::add_sides(bool inner, WeightedVectors& all, std::vector<Member>
           }
           all.values.insert(all.values.end(), l.shares.begin(), l.shares.end());
           all.weights.insert(all.weights.end(), l.weights.begin(), l.weights.end());
+          law_ += l.law;
         }
         extra_ += parts.size() - 1;
       }
@@ -218,7 +219,7 @@ void LightTable::make_entries(const std::vector<bool>& limited) {
 }
 
 void LightTable::measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area) {
-  double squares = 0;
+  double squares = law_;
   for (std::size_t i = 0; i < of.size(); ++i)
     for (std::size_t d = 0; d < numbers_; ++d) {
       const double off = all.value(i)[d] - entries_[of[i] * numbers_ + d];
@@ -318,7 +319,8 @@ void LightTable::add_loss(const FaceSide& side, const SurfacePoint& at, double w
   }
   const glm::dvec3 alone =
       std::accumulate(taken.begin(), taken.begin() + static_cast<std::ptrdiff_t>(casting), glm::dvec3(0));
-  const glm::dvec3 together = lit - displayed(others) - alone;
+  const glm::dvec3 displayed_others = displayed(others);
+  const glm::dvec3 together = lit - displayed_others - alone;
 
   for (int c = 0; c < static_cast<int>(kChannels); ++c) {
     if (!(lit[c] > 0)) continue;
@@ -329,6 +331,13 @@ void LightTable::add_loss(const FaceSide& side, const SurfacePoint& at, double w
       const double of_all = kept[c] > 0 ? arrive[l][c] / kept[c] : 0;
       share[l] = std::max(taken[l][c] + kTogether * together[c] * of_all, 0.0) / (lit[c] * before[l]);
       own_shadow += share[l] * behind[l];
+    }
+    double all_off = lit[c] - displayed_others[c];
+    for (std::size_t l = 0; l < casting; ++l) all_off -= share[l] * before[l] * lit[c];
+    for (std::size_t l = 0; l < casting; ++l) {
+      if (before[l] == 0 || (needed >> l & 1U) == 0) continue;
+      const double off = taken[l][c] - share[l] * before[l] * lit[c];
+      out.law += weight * (off * off + all_off * all_off) / 2;
     }
     // With its own shadow made up for, the colour must still be one: else its shadows are fainter.
     const double most = kWhite / std::max(out.brightest[c], lit[c]) - 1;

@@ -52,6 +52,7 @@ class LightTable {
     double spread = 0;  ///< weight times square of what the shares of places are off the mean
     double area = 0;
     glm::dvec3 brightest{0, 0, 0};  ///< colour of places with no shadow on them, if some points are behind the side
+    double law = 0;  ///< area times square of what the sum of shares is off, in steps, for each light and channel
   };
   /// At one place of a side, of an area of 1. Empty without a table.
   [[nodiscard]] Loss loss_at(const FaceSide& side, const SurfacePoint& place) const;
@@ -74,8 +75,9 @@ class LightTable {
   /// Whether the shadow volume that a side throws counts the points behind it.
   [[nodiscard]] bool shadows_itself(const FaceSide& side) const;
 
-  /// How far colours in the full shadow of a light are off because a class has one share, in steps of 255. It is the
-  /// root mean square over lights, channels, and the area of the sides that casters may keep light from.
+  /// How far colours in the full shadow of a light are off because a class has one share, and because shares of several
+  /// lights are added, in steps of 255. It is the root mean square over lights, channels, and the area of the sides
+  /// that casters may keep light from; half of the shadows are of a light alone, half of all lights together.
   [[nodiscard]] double error() const { return error_; }
 
   /// FrameGeometry::shade or shares.
@@ -128,6 +130,7 @@ class LightTable {
   std::vector<double> middles_;  // of each class, a light's channels one after the other
   std::vector<double> entries_;  // these, rounded to SHADE_FRAC
   double error_ = 0;
+  double law_ = 0;                           // Loss::law of all
   std::vector<std::array<Known, 2>> known_;  // of each polygon's outside and inside
   std::size_t extra_ = 0;                    // parts beyond one of each side
 };

@@ -47,10 +47,11 @@ std::vector<NamedConfig> in_question(const Needs& needs) {
 
 std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs, const DrawOptions& draw) {
   // The tokens of a frame depend on how shadows are drawn; their words only on widths.
-  std::map<int, std::vector<ChoiceCost>> ways;
-  std::vector<std::pair<int, std::size_t>> order;
+  using ShadowWay = std::pair<int, bool>;  // DSF_BITS, and whether lights come one after the other
+  std::map<ShadowWay, std::vector<ChoiceCost>> ways;
+  std::vector<std::pair<ShadowWay, std::size_t>> order;
   for (const NamedConfig& n : in_question(needs)) {
-    const int way = needs.shadows ? n.config.dsf_bits : 0;
+    const ShadowWay way(needs.shadows ? n.config.dsf_bits : 0, n.config.linear_bits > 0);
     order.emplace_back(way, ways[way].size());
     ways[way].push_back({n, 0, estimated_cells(n.config).luts, approximates(n.config, needs)});
   }

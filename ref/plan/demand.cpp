@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "contract/derived.hpp"
@@ -112,7 +113,9 @@ void add_geometry(const FrameGeometry& g, const Config& config, const PlanPlace&
       if (g.polygons[i].color_planes >= 0) out.color_span.raise(most, at);
     }
   if (config.dsf_bits == 0) return;
-  add_groups(g, config, at, seen, out.groups);
+  if (config.linear_bits == 0) return add_groups(g, config, at, seen, out.groups);
+  out.lights.raise(static_cast<double>(g.passes.size()), at);
+  out.lit_samples.raise(std::accumulate(g.passes.begin(), g.passes.end(), 0), at);
 }
 
 void add_classes(const SceneFrame& frame, Config config, const Look& look, const PlanPlace& at, WayDemand& out) {
@@ -165,18 +168,19 @@ Features features_of(std::span<const PlannedScene> scenes) {
   return all;
 }
 
-Config finest(const Features& features, int dsf_bits, int units) {
+Config finest(const Features& features, ShadowWay way, int units) {
   const Needs& needs = features.needs;
+  const bool linear = way.dsf_bits > 0 && (way.linear || needs.lights > kGreatest.lights);
   Config c;
   c.x_bits = std::max(static_cast<int>(std::bit_width(static_cast<unsigned>(needs.width))), kLeastXBits);
   c.max_width = needs.width;
   c.z_bits = 24;
   c.z_frac = kGreatest.z_frac;
   c.channels = needs.color ? 3 : 1;
-  c.smooth = needs.smooth || needs.near_light() ? 1 : 0;
+  c.smooth = linear || needs.smooth || needs.near_light() ? 1 : 0;
   c.color_frac = c.smooth > 0 ? kGreatest.color_frac : 0;
-  c.dsf_bits = dsf_bits;
-  c.fsf = dsf_bits > 0 ? 1 : 0;
+  c.dsf_bits = way.dsf_bits;
+  c.fsf = way.dsf_bits > 0 ? 1 : 0;
   c.shade_frac = kGreatest.shade_frac;
   c.translucency = needs.translucency ? 1 : 0;
   c.units = units;
@@ -186,9 +190,10 @@ Config finest(const Features& features, int dsf_bits, int units) {
     c.seg_bits = kGreatest.seg_bits;
     c.order_bits = kGreatest.order_bits;
   }
-  const bool table = needs.lights > 1 || needs.light_table();
-  if (dsf_bits > 0 && (needs.samples > 1 || table)) c.count_bits = kGreatest.count_bits;
-  if (dsf_bits > 0 && table) {
+  if (linear) c.linear_bits = kGreatest.linear_bits;
+  const bool table = !linear && (needs.lights > 1 || needs.light_table());
+  if (way.dsf_bits > 0 && (needs.samples > 1 || table)) c.count_bits = kGreatest.count_bits;
+  if (way.dsf_bits > 0 && table) {
     c.lights = needs.lights;
     c.class_bits = kGreatest.class_bits;
   }
@@ -196,11 +201,11 @@ Config finest(const Features& features, int dsf_bits, int units) {
   return c;
 }
 
-WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& features, int dsf_bits,
+WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& features, ShadowWay way,
                     const FrameStep& step) {
   WayDemand out;
-  out.dsf_bits = dsf_bits;
-  const Config config = finest(features, dsf_bits, 0);
+  out.way = way;
+  const Config config = finest(features, way, 0);
   std::set<GroupKey> seen;
   each_frame(
       scenes, config, step,
@@ -220,7 +225,7 @@ WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& featur
 
 UnitDemand unit_demand_of(std::span<const PlannedScene> scenes, const Features& features, const FrameStep& step) {
   UnitDemand out;
-  const Config config = finest(features, features.needs.shadows ? 1 : 0, kGreatest.units);
+  const Config config = finest(features, {.dsf_bits = features.needs.shadows ? 1 : 0}, kGreatest.units);
   std::map<int, int> segments;  // of a unit's line at hand
   each_frame(
       scenes, config, step,

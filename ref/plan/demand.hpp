@@ -49,14 +49,22 @@ struct ShareGroup {
   PlanPlace at;
 };
 
+/// How shadows are drawn: by volumes that DSF counts with so many bits, and by a table or a light after the other.
+struct ShadowWay {
+  int dsf_bits = 0;
+  bool linear = false;  ///< light after light
+};
+
 /// Demands of one way to draw shadows.
 struct WayDemand {
-  int dsf_bits = 0;
+  ShadowWay way;
   Most volumes;                                       ///< of a light sample
   Most depth_span;                                    ///< pixels along which depth goes on by steps
   Most color_span;                                    ///< pixels along which colour does
   std::array<Most, kClassSteps.size()> class_errors;  ///< LightDemand::share_error by a table of each step
   std::vector<ShareGroup> groups;                     ///< what shadows take, without repetition
+  Most lights;                                        ///< with light after light: passes of a line
+  Most lit_samples;                                   ///< likewise: samples of all lights
 };
 
 /// Expansion units that hold all polyhedra that can go to one.
@@ -84,10 +92,11 @@ int frames_of(const PlannedScene& scene);
 
 Features features_of(std::span<const PlannedScene> scenes);
 
-/// A configuration that draws scenes with these features by `dsf_bits` and `units`, with the finest fractions.
-Config finest(const Features& features, int dsf_bits, int units);
+/// A configuration that draws scenes with these features in this way by `units`, with the finest fractions. More lights
+/// than a table has come one after the other in any way.
+Config finest(const Features& features, ShadowWay way, int units);
 
-WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& features, int dsf_bits,
+WayDemand demand_of(std::span<const PlannedScene> scenes, const Features& features, ShadowWay way,
                     const FrameStep& step);
 
 /// The most columns of the picture that an opaque polygon has which is diced: its parts' depth is that of a span so

@@ -46,9 +46,6 @@ class Planner {
 
  private:
   void check() const {
-    const int lights = features_.needs.lights;
-    if (features_.needs.shadows && lights > kGreatest.lights)
-      throw Error(fmt::format("{} lights cast shadows, and a core tells at most {} apart", lights, kGreatest.lights));
     const int height = features_.needs.height;
     if (options_.clock && total_lines() <= height)
       throw Error(
@@ -66,13 +63,33 @@ class Planner {
     units_ = plan::unit_demand_of(scenes_, features_, [this] { step(); });
     const int of_way = units_.units.value >= 1 ? 3 : 2;
     passes_ = 1 + of_way * (shadows ? 2 : 1);
-    // Parity, then counting with more and more bits, until there is one volume for each light sample.
+    const bool table = features_.needs.lights <= kGreatest.lights;
+    if (table) look_at(false, of_way);
+    too_rough_ = rough_table();
+    // With one light a table takes less than light after light, wherever it serves.
+    linear_ = shadows && (!table || too_rough_ || features_.needs.lights > 1);
+    if (linear_) look_at(true, of_way);
+    if (too_rough_) std::erase_if(demands_, [](const plan::WayDemand& d) { return !d.way.linear; });
+    passes_ = (options_.front_end ? 2 : 1) + of_way * static_cast<int>(demands_.size());
+  }
+
+  /// Parity, then counting with more and more bits, until there is one volume for each light sample.
+  void look_at(bool linear, int of_way) {
+    const bool shadows = features_.needs.shadows;
     for (int bits = shadows ? 1 : 0; bits <= (shadows ? kGreatest.dsf_bits : 0); ++bits) {
       passes_ = std::max(passes_, 1 + of_way * static_cast<int>(demands_.size() + 1));
-      demands_.push_back(plan::demand_of(scenes_, features_, bits, [this] { step(); }));
+      demands_.push_back(plan::demand_of(scenes_, features_, {bits, linear}, [this] { step(); }));
       if (demands_.back().volumes.value <= 1) break;
     }
-    passes_ = (options_.front_end ? 2 : 1) + of_way * static_cast<int>(demands_.size());
+  }
+
+  /// The error of the finest table, where that is more than the limit.
+  [[nodiscard]] std::optional<plan::Most> rough_table() const {
+    std::optional<plan::Most> most;
+    for (const plan::WayDemand& d : demands_)
+      if (const plan::Most& error = d.class_errors.back(); error.value > options_.limits.color)
+        if (!most || error.value > most->value) most = error;
+    return most;
   }
 
   /// ACTIVE changes no pixel and no other parameter, so the chosen core gets as much as its frames ask for. The cores
@@ -109,9 +126,11 @@ class Planner {
   }
 
   static std::string name_of(const plan::WayDemand& d, const plan::UnitDemand* units) {
-    std::string name = d.dsf_bits == 0   ? "no shadows"
-                       : d.dsf_bits == 1 ? std::string("parity")
-                                         : fmt::format("counting, {} bits", d.dsf_bits);
+    const int bits = d.way.dsf_bits;
+    std::string name = bits == 0   ? "no shadows"
+                       : bits == 1 ? std::string("parity")
+                                   : fmt::format("counting, {} bits", bits);
+    if (d.way.linear) name += ", light after light";
     if (units != nullptr) name += ", " + counted(static_cast<int>(units->units.value), "unit");
     return name;
   }
@@ -230,8 +249,15 @@ class Planner {
       const auto& given = way.widths.reasons;
       const auto r =
           std::find_if(given.begin(), given.end(), [&](const PlanReason& g) { return g.parameter == p.name; });
-      out_.reasons.push_back(
-          {p.name, out_.config.*(p.member), r != given.end() ? r->text : arrangement_reason(p, way, taken)});
+      std::string text = r != given.end() ? r->text : arrangement_reason(p, way, taken);
+      if (p.member == &Config::class_bits && too_rough_)
+        text += fmt::format(
+            "; {} classes leave shadows {:.2g} steps off, root mean square, in {}, more than --max-color {}",
+            (1 << plan::kClassSteps.back()) - 1, too_rough_->value, plan::text_of(scenes_, too_rough_->at),
+            options_.limits.color);
+      if (p.member == &Config::lights && features_.needs.lights > kGreatest.lights)
+        text += fmt::format("; a table tells {} apart at most", kGreatest.lights);
+      out_.reasons.push_back({p.name, out_.config.*(p.member), std::move(text)});
     }
   }
 
@@ -243,8 +269,14 @@ class Planner {
     if (p.member == &Config::lanes && taken.config.arrangement == 0) return "systolic: without effect";
     if (p.member == &Config::lanes || p.member == &Config::beat_words) return pace_reason(p, way, taken);
     if (p.member == &Config::active) return "spans come from the host; --front-end rtl plans a front end";
-    if (p.member == &Config::linear_bits) return "light after light is never asked for";
+    if (p.member == &Config::linear_bits) return linear_reason();
     return "the paper's segments are never asked for";
+  }
+
+  /// Why lights do not come one after the other.
+  [[nodiscard]] std::string linear_reason() const {
+    if (!features_.needs.shadows) return "no shadows";
+    return linear_ ? "light after light is another way, and costed too" : "one light, and its shares keep --max-color";
   }
 
   static bool of_units(const ParamInfo& p) {
@@ -278,6 +310,8 @@ class Planner {
   plan::Features features_;
   plan::UnitDemand units_;
   std::vector<plan::WayDemand> demands_;
+  std::optional<plan::Most> too_rough_;  // the finest table's error, over the limit
+  bool linear_ = false;                  // light after light is costed
   std::vector<Way> ways_;
   int passes_ = 1;   // over all frames: those that are known of
   int steps_ = 0;    // frames that were begun, of all passes

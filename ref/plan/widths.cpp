@@ -141,21 +141,23 @@ class Maker {
     }
     // Commands refuse a core of parity without FSF where casters may have several volumes, whatever these frames have.
     const bool several = way_.volumes.value > 1;
-    const bool possible = way_.dsf_bits == 1 && needs.several_volumes;
+    const int dsf_bits = way_.way.dsf_bits;
+    const bool possible = dsf_bits == 1 && needs.several_volumes;
     const std::string volumes = counted(static_cast<int>(way_.volumes.value), "volume");
     Config of_way;
-    of_way.dsf_bits = way_.dsf_bits;
-    set(&Config::dsf_bits, way_.dsf_bits,
-        way_.dsf_bits == 1
+    of_way.dsf_bits = dsf_bits;
+    set(&Config::dsf_bits, dsf_bits,
+        dsf_bits == 1
             ? fmt::format("parity: {} for a light sample at most, {}{}", volumes, at(way_.volumes),
                           one_less_text(1, info_of(&Config::dsf_bits)))
             : fmt::format("counting to {}: {} for a light sample at most, {}; {} is another way, and costed too",
-                          derived::most_dsf(of_way), volumes, at(way_.volumes), way_.dsf_bits - 1));
+                          derived::most_dsf(of_way), volumes, at(way_.volumes), dsf_bits - 1));
     set(&Config::fsf, several || possible ? 1 : 0,
         several    ? "several volumes for a light sample; 0 cannot represent the scene"
         : possible ? "one volume for each light sample here; several casters, or one that is not convex, may have "
                      "more, and 0 cannot represent the scene then"
                    : "one volume for each light sample");
+    if (way_.way.linear) return light_after_light();
     const bool table = needs.lights > 1 || needs.share_error > limits_.color;
     const bool counts = needs.samples > 1 || table;
     const int count = counts ? bits_for(needs.samples) : 0;
@@ -177,6 +179,17 @@ class Maker {
     else
       set(&Config::class_bits, 1,
           fmt::format("with one share for all shadows they are {} off, root mean square", steps(needs.share_error)));
+  }
+
+  void light_after_light() {
+    const Needs& needs = features_.needs;
+    const int count = needs.samples > 1 ? bits_for(needs.samples) : 0;
+    set(&Config::count_bits, count,
+        count == 0 ? "every light is a point or at infinity"
+                   : fmt::format("{} for a light{}", counted(needs.samples, "sample"),
+                                 one_less_text(count, info_of(&Config::count_bits))));
+    set(&Config::lights, 1, fmt::format("one counter for {}, one after the other", counted(needs.lights, "light")));
+    set(&Config::class_bits, 1, "light after light has no table");
   }
 
   /// The first step whose classes keep the limit, or the last.
@@ -208,22 +221,27 @@ class Maker {
     return frac;
   }
 
-  void color() {
-    const Needs& needs = features_.needs;
-    const ParamInfo& c = info_of(&Config::color_frac);
-    const ParamInfo& s = info_of(&Config::shade_frac);
-    const auto feasible = [&] { return shade_frac(smooth() ? color_error(way_.color_span.value, c.max) : 0) <= s.max; };
+  /// Says which channels there are; refuses a limit that the finest widths are not sure to keep, or raises it.
+  template <class Feasible>
+  void begin_color(Feasible feasible, std::string_view because) {
     if (!feasible()) {
       const int asked = out_.color_limit;
       while (!feasible() && out_.color_limit < 255) ++out_.color_limit;
       if (limits_.color_given && unkept_ == Unkept::refuse)
-        throw Error(
-            fmt::format("--max-color {}: no widths keep it, because shares of {} bits fraction are off by more; "
-                        "--max-color {} can be kept",
-                        asked, s.max, out_.color_limit));
+        throw Error(fmt::format("--max-color {}: no widths keep it, because {}; --max-color {} can be kept", asked,
+                                because, out_.color_limit));
     }
-    set(&Config::channels, needs.color ? 3 : 1,
-        needs.color ? "some colour is not grey; 1 cannot represent the scene" : "all colours are grey");
+    set(&Config::channels, features_.needs.color ? 3 : 1,
+        features_.needs.color ? "some colour is not grey; 1 cannot represent the scene" : "all colours are grey");
+  }
+
+  void color() {
+    if (way_.way.linear) return linear_color();
+    const Needs& needs = features_.needs;
+    const ParamInfo& c = info_of(&Config::color_frac);
+    const ParamInfo& s = info_of(&Config::shade_frac);
+    const auto feasible = [&] { return shade_frac(smooth() ? color_error(way_.color_span.value, c.max) : 0) <= s.max; };
+    begin_color(feasible, fmt::format("shares of {} bits fraction are off by more", s.max));
     if (!smooth()) {
       set(&Config::smooth, 0,
           needs.color_spread > 0
@@ -251,6 +269,48 @@ class Maker {
                                   : fmt::format(", {} within {}, more than --max-color {}", frac - 1, shown(frac - 1),
                                                 out_.color_limit),
                     step_text(frac, taken)));
+  }
+
+  /// LINEAR_BITS with the finest COLOR_FRAC, and then that.
+  void linear_color() {
+    const ParamInfo& b = info_of(&Config::linear_bits);
+    const ParamInfo& c = info_of(&Config::color_frac);
+    const double pixels = std::max(way_.color_span.value, 1.0);
+    const auto off = [&](int bits, int frac) {
+      return linear_error(way_.lights.value, way_.lit_samples.value, pixels, bits, frac);
+    };
+    const auto keeps = [&](int bits, int frac) { return std::ceil(off(bits, frac)) <= out_.color_limit; };
+    begin_color([&] { return keeps(b.max, c.max); },
+                fmt::format("{} one after the other, by {} bits, are off by more where it is dark",
+                            counted(static_cast<int>(way_.lights.value), "light"), b.max));
+    set(&Config::smooth, 1, "light after light takes its colours from spans with a fraction");
+    const auto figure = [&](int bits, int frac) { return told_apart(off(bits, frac), out_.color_limit, 2).value; };
+    int bits = kLeastLinearBits;
+    while (bits < b.max && !keeps(bits, c.max)) ++bits;
+    set(&Config::linear_bits, bits,
+        fmt::format("{} of {} on a line, {}: where it is dark, {} bits are off by {}{}",
+                    counted(static_cast<int>(way_.lights.value), "light"),
+                    counted(static_cast<int>(way_.lit_samples.value), "sample"), at(way_.lit_samples), bits,
+                    steps_text(figure(bits, c.max)),
+                    bits == kLeastLinearBits ? ""
+                                             : fmt::format(", {} by {}, more than --max-color {}", bits - 1,
+                                                           figure(bits - 1, c.max), out_.color_limit)));
+    const int floor = std::max(0, bits + out_.config.count_bits - 8);
+    int frac = floor;
+    while (frac < c.max && !keeps(bits, frac)) ++frac;
+    const int taken = std::min(four_step(frac), c.max);
+    set(&Config::color_frac, taken,
+        fmt::format("{}: with {} light is off by {}{}{}",
+                    way_.color_span.at.scene < 0
+                        ? "no span changes colour"
+                        : fmt::format("longest span that changes colour {} in {}",
+                                      counted(static_cast<int>(pixels), "pixel"), at(way_.color_span)),
+                    frac, steps_text(figure(bits, frac)),
+                    frac == floor ? "; one less cannot hold a sample's light"
+                                  : fmt::format(", with {} by {}, more than --max-color {}", frac - 1,
+                                                figure(bits, frac - 1), out_.color_limit),
+                    step_text(frac, taken)));
+    set(&Config::shade_frac, info_of(&Config::shade_frac).min, "light after light takes no shares");
   }
 
   void color_frac(const ParamInfo& c, const ParamInfo& s) {
@@ -352,6 +412,15 @@ double depth_error_share(double pixels, int z_bits, int z_frac, int width, int h
 }
 
 double color_error(double pixels, int color_frac) { return pixels * std::ldexp(0.5, -color_frac); }
+
+double linear_error(double lights, double samples, double pixels, int linear_bits, int color_frac) {
+  constexpr double kSteepest = 12.92 * 255;  // the least light's part of sRGB (IEC 61966-2-1), in steps
+  // What comes from everywhere is rounded once to the pixel's bits. A light is, too, and each of its samples to finer
+  // ones: together less than a step. Slopes are off by half of the fraction's last place at each pixel, in 2^-8.
+  const double rounded = (lights + 0.5) * std::ldexp(1.0, -linear_bits);
+  const double drawn = (1 + samples) * color_error(pixels, color_frac) / 256;
+  return kSteepest * (rounded + drawn);
+}
 
 double shown_error(double drawn, std::span<const ShareGroup> groups, int shade_frac) {
   const double before = std::ceil(drawn);

@@ -24,6 +24,9 @@ int width_step(int least);
 /// The next step of CLASS_BITS: 4, 8, 11.
 int class_step(int least);
 
+/// The least LINEAR_BITS that is not 0.
+inline constexpr int kLeastLinearBits = 10;
+
 /// Bound of a stored depth's error in steps of Z_BITS bits, after `pixels` pixels of a span, in a picture of this size.
 /// It is the sum of these:
 /// - the rounding of the start and, at every pixel, of the slope: half a step of the fraction, 2^-(Z_FRAC + 1), each,
@@ -40,6 +43,13 @@ double color_error(double pixels, int color_frac);
 /// Whole steps by which a pixel may differ from exact arithmetic, if colours differ by `drawn` before their first
 /// rounding and shares have `shade_frac` fraction bits.
 double shown_error(double drawn, std::span<const ShareGroup> groups, int shade_frac);
+
+/// Bound of the error of a colour to which lights are added one after the other, before it is displayed, in steps of 8
+/// bits where the display's curve is steepest.
+/// @param lights that are added
+/// @param samples of all of them
+/// @param pixels of the longest span that changes colour
+double linear_error(double lights, double samples, double pixels, int linear_bits, int color_frac);
 
 /// A configuration and why it has its values.
 struct Widths {

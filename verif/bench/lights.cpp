@@ -10,15 +10,7 @@
 #include <optional>
 #include <string_view>
 
-#include "contract/derived.hpp"
-#include "cosim/phases.hpp"
-#include "kage/frontend.hpp"
-#include "kage/geometry.hpp"
-#include "kage/pipeline.hpp"
-#include "kage/token.hpp"
-#include "oracle/judge.hpp"
-#include "oracle/light_reference.hpp"
-#include "stimulus/scenes/lit_scenes.hpp"
+#include "bench/light_steps.hpp"
 
 namespace {
 
@@ -29,26 +21,10 @@ constexpr int kWidth = 320;
 constexpr int kHeight = 240;
 constexpr std::array kMaxShading{0, 4, 2, 1};
 
-/// A way to have light, and what it takes.
-struct Step {
-  std::string_view name;
-  int class_bits;
-  std::optional<double> darkening;
-  int linear_bits = 0;
-};
-// All shadows took so much of a colour until shares were fitted.
-constexpr std::array<Step, 7> kSteps{{{"constant SHADE", 1, 0.55},
-                                      {"fitted SHADE", 1, std::nullopt},
-                                      {"CLASS_BITS 4", 4, std::nullopt},
-                                      {"CLASS_BITS 8", 8, std::nullopt},
-                                      {"CLASS_BITS 11", 11, std::nullopt},
-                                      {"LINEAR_BITS 10", 1, std::nullopt, 10},
-                                      {"LINEAR_BITS 12", 1, std::nullopt, 12}}};
-
 /// The same scenes with each of the steps that can have their lights, all with smooth colour.
 void step_errors() {
   fmt::print("{:17}", "mean and worst");
-  for (const Step& s : kSteps) fmt::print(" {:>15}", s.name);
+  for (const LightStep& s : kLightSteps) fmt::print(" {:>15}", s.name);
   fmt::print("\n");
   for (const LitScene& lit : lit_scenes()) {
     const SceneFrame f = Scene::from(lit.parts).frame(0, 1);
@@ -56,22 +32,17 @@ void step_errors() {
     const auto reference =
         reference_picture(LightReference(f, rays, sampled_points(f, {}), kWidth, kHeight), kWidth, kHeight);
     fmt::print("{:17}", lit.name);
-    for (const Step& s : kSteps) {
-      Config c;
-      c.smooth = 1;
-      c.color_frac = 8;
-      c.shade_frac = 16;
-      c.class_bits = s.class_bits;
-      c.linear_bits = s.linear_bits;
-      c.lights = c.linear_bits > 0 ? 1 : static_cast<int>(f.lights.size());
-      c.count_bits = f.lights[0].shape != LightShape::point ? 4 : derived::has_table(c) ? 1 : 0;
-      if (f.lights.size() > 1 && !derived::has_table(c) && c.linear_bits == 0) {
+    Config plain;
+    plain.shade_frac = 16;
+    for (const LightStep& s : kLightSteps) {
+      const std::optional<Config> c = config_of(s, f, plain);
+      if (!c) {
         fmt::print(" {:>15}", "");
         continue;
       }
       Look look;
       look.darkening = s.darkening;
-      const LightError e = compare_light(draw(make_geometry(f, c, kWidth, kHeight, {.look = look}), c), reference);
+      const LightError e = compare_light(draw(make_geometry(f, *c, kWidth, kHeight, {.look = look}), *c), reference);
       fmt::print(" {:>15}", fmt::format("{:.2f}, {:.1f}", e.mean(), e.worst));
     }
     fmt::print("\n");
@@ -83,50 +54,17 @@ void print_heading(std::string_view of) {
              "worst", "else", "worst", "dB");
 }
 
-/// A scene's first frame, of which only what is opaque is seen: the reference has no layers.
-struct Judged {
-  explicit Judged(const Scene& scene) : drawn(scene.frame(0, scene.frame_count())) {
-    SceneFrame opaque = drawn;
-    for (Polygon& p : opaque.polygons)
-      if (opaque.triangles[p.triangle].alpha < 255) p.count = 0;
-    const RayScene rays(opaque);
-    reference =
-        reference_picture(LightReference(opaque, rays, sampled_points(opaque, {}), kWidth, kHeight), kWidth, kHeight);
-    for (Triangle& t : drawn.triangles)
-      if (t.alpha < 255) t.alpha = 0;
-  }
-
-  SceneFrame drawn;
-  std::vector<ReferencePixel> reference;
-};
-
-/// A picture's error, its frame's kB, and its thousands of clocks by design.
-struct Taken {
-  LightError error;
-  std::size_t kilobytes;
-  std::uint64_t kiloclocks;
-};
-Taken taken(const Judged& of, const Config& c, const Look& look) {
-  const FrameGeometry g = make_geometry(of.drawn, c, kWidth, kHeight, {.look = look});
-  std::vector<std::uint32_t> words;
-  make_frame(g, c, 0, words);
-  const Layout layout(c);
-  PhaseCounter counter(c);
-  counter.start(kWidth);
-  TokenWalk walk(layout, words);
-  for (auto token = walk.next(); !token.empty(); token = walk.next()) counter.token(decode(c, layout, token));
-  return {compare_light(draw(g, c), of.reference), (words.size() * 4 + 500) / 1000,
-          (counter.sums().clocks() + 500) / 1000};
-}
+/// In thousands, rounded.
+std::uint64_t thousands(std::uint64_t n) { return (n + 500) / 1000; }
 
 /// The default choice beside light after light in a core of as many lanes and counters.
 void light_after_light(const std::string& name, const Scene& scene) {
   const NamedConfig chosen = choose_config(scene, {.width = kWidth, .height = kHeight});
-  const Judged of(scene);
+  const JudgedFrame of(scene, kWidth, kHeight);
   Config c = chosen.config;
-  const auto print = [](const Taken& t) {
-    fmt::print(" {:6.2f} {:5.1f} {:5.1f} {:6} {:7}", t.error.mean(), t.error.worst, t.error.psnr(), t.kilobytes,
-               t.kiloclocks);
+  const auto print = [](const TakenFrame& t) {
+    fmt::print(" {:6.2f} {:5.1f} {:5.1f} {:6} {:7}", t.error.mean(), t.error.worst, t.error.psnr(),
+               thousands(4 * t.words), thousands(t.clocks));
   };
   fmt::print("{:17} {:13}", name, chosen.name);
   print(taken(of, c, {}));
@@ -145,13 +83,13 @@ void dicing(const std::string& name, const Scene& scene) {
   const NamedConfig chosen = choose_config(scene, {.width = kWidth, .height = kHeight});
   const Config& c = chosen.config;
   if (c.smooth == 0) return;
-  const Judged of(scene);
+  const JudgedFrame of(scene, kWidth, kHeight);
   fmt::print("{:17} {:13}", name, chosen.name);
   for (const int most : kMaxShading) {
     Look look;
     look.max_shading = most;
-    const Taken t = taken(of, c, look);
-    fmt::print(" {:6.1f} {:5} {:5}", t.error.psnr(), t.kilobytes, t.kiloclocks);
+    const TakenFrame t = taken(of, c, look);
+    fmt::print(" {:6.1f} {:5} {:5}", t.error.psnr(), thousands(4 * t.words), thousands(t.clocks));
   }
   fmt::print("\n");
 }
@@ -159,7 +97,7 @@ void dicing(const std::string& name, const Scene& scene) {
 /// The default choice.
 void reference_errors(const std::string& name, const Scene& scene) {
   const NamedConfig chosen = choose_config(scene, {.width = kWidth, .height = kHeight});
-  const Judged of(scene);
+  const JudgedFrame of(scene, kWidth, kHeight);
   const FrameGeometry g = make_geometry(of.drawn, chosen.config, kWidth, kHeight);
   const LightError e = compare_light(draw(g, chosen.config), of.reference);
   fmt::print("{:17} {:13} {:5} {:8} {:6.2f} {:6.1f} {:6.2f} {:6.1f} {:6.1f}\n", name, chosen.name, e.ties, e.shadowed,

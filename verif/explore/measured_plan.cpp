@@ -31,20 +31,23 @@ struct Judged {
   const DrawOptions* draw = nullptr;
   ScreenTruth truth;
   std::shared_ptr<const LightTruth> light;
-  std::deque<std::pair<std::array<int, 4>, DrawnFrame>> finest;  // by what decides how light is shown
+  std::deque<std::pair<std::array<int, 5>, DrawnFrame>> finest;  // by what decides how light is shown
 };
 
 /// Parameters that decide how light is shown. Colours are compared between pictures that share them; how wrong these
 /// make light is measured against the truth of light.
-std::array<int, 4> light_of(const Config& c) { return {c.smooth, c.count_bits, c.lights, c.class_bits}; }
+std::array<int, 5> light_of(const Config& c) {
+  return {c.smooth, c.count_bits, c.lights, c.class_bits, c.linear_bits > 0 ? 1 : 0};
+}
 
 /// The same features with every width that may be lowered at its finest.
 Config finest_of(Config c) {
   c.z_bits = kGreatest.z_bits;
   c.z_frac = kGreatest.z_frac;
   if (c.smooth > 0) c.color_frac = kGreatest.color_frac;
-  if (c.dsf_bits > 0) c.shade_frac = kGreatest.shade_frac;
+  if (c.dsf_bits > 0 && c.linear_bits == 0) c.shade_frac = kGreatest.shade_frac;
   if (c.class_bits > 1) c.class_bits = kGreatest.class_bits;
+  if (c.linear_bits > 0) c.linear_bits = kGreatest.linear_bits;
   return c;
 }
 
@@ -58,6 +61,8 @@ struct Width {
 int fraction_step(int v) { return plan::position_step(std::max(v, 1)); }
 int shade_step(int v) { return std::min(plan::four_step(v), kGreatest.shade_frac); }
 
+int any_step(int v) { return v; }
+
 /// One bit is no table.
 int class_bits_step(int v) { return v > 1 ? plan::class_step(v) : v; }
 
@@ -65,7 +70,8 @@ int class_bits_step(int v) { return v > 1 ? plan::class_step(v) : v; }
 std::vector<Width> widths_of(const Config& c, bool classes = true) {
   std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
   if (c.smooth > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
-  if (c.dsf_bits > 0) list.push_back({&Config::shade_frac, 1, shade_step});
+  if (c.linear_bits > 0) list.push_back({&Config::linear_bits, plan::kLeastLinearBits, any_step});
+  if (c.dsf_bits > 0 && c.linear_bits == 0) list.push_back({&Config::shade_frac, 1, shade_step});
   // With one bit there is no table, which several lights need.
   if (c.class_bits > 1 && classes) list.push_back({&Config::class_bits, 2, class_bits_step});
   return list;
@@ -81,15 +87,20 @@ struct MeasuredPlan::Data {
   std::vector<Judged> frames;  // empty until they are asked for
   std::uint64_t pixels = 0;
   std::uint64_t light_pixels = 0;
-  bool keeps_light = true;  // the finest pictures are within the limit of light
+  std::array<std::optional<bool>, 2> light_kept;  // keeps_light(), by a table and light after light
   std::vector<Lowered> lowered;
+
+  /// A configuration with the finest widths, light being shown by a table or one after the other.
+  [[nodiscard]] Config finest_config(bool linear) const {
+    return finest_of(plan::finest(features, {features.needs.shadows ? 1 : 0, linear}, 0));
+  }
 
   /// The picture of a frame with the finest widths, light being shown as `config` does.
   const DrawnFrame& finest_picture(Judged& of, const Config& config) const {
     const auto kept =
         std::find_if(of.finest.begin(), of.finest.end(), [&](const auto& f) { return f.first == light_of(config); });
     if (kept != of.finest.end()) return kept->second;
-    Config c = finest_of(plan::finest(features, features.needs.shadows ? 1 : 0, 0));
+    Config c = finest_config(config.linear_bits > 0);
     std::tie(c.smooth, c.count_bits, c.lights, c.class_bits) =
         std::tie(config.smooth, config.count_bits, config.lights, config.class_bits);
     c.color_frac = c.smooth > 0 ? kGreatest.color_frac : 0;
@@ -101,10 +112,10 @@ struct MeasuredPlan::Data {
   }
 
   /// Whether all frames may be within the limits although some are missing: errors are counted as if these had none.
-  [[nodiscard]] bool may_be_within(const MeasuredErrors& some) const {
+  bool may_be_within(const MeasuredErrors& some) const {
     const Accuracy& a = some.pictures;
     const double light = light_pixels > 0 ? std::sqrt(some.light.squares / (3 * static_cast<double>(light_pixels))) : 0;
-    return (light <= limits.color || !keeps_light) && a.z_max <= limits.z && a.color_max <= limits.color &&
+    return (light <= limits.color || !some.light_is_kept) && a.z_max <= limits.z && a.color_max <= limits.color &&
            (!limits.wrong || a.wrong_ppm(pixels) <= *limits.wrong);
   }
 
@@ -112,8 +123,7 @@ struct MeasuredPlan::Data {
     if (!frames.empty()) return;
     features = plan::features_of(scenes);
     // Parity is right for any caster, so its volumes are what the oracle is asked about.
-    const Config config = finest_of(plan::finest(features, features.needs.shadows ? 1 : 0, 0));
-    LightErrors light;
+    const Config config = finest_config(false);
     for (const PlannedScene& scene : scenes) {
       const int count = plan::frames_of(scene);
       SweepPoint point;
@@ -135,11 +145,22 @@ struct MeasuredPlan::Data {
         if (!scene.draw.look.cull) j.light = lit.light(i, point);
         pixels += j.truth.pixels.size();
         if (j.light) light_pixels += j.light->pixels.size();
-        if (j.light) light += light_errors(*j.light, finest_picture(j, config));
         frames.push_back(std::move(j));
       }
     }
-    keeps_light = light.rms() <= limits.color;
+  }
+
+  /// Whether the finest pictures that show light as this configuration does are within the limit of light.
+  bool keeps_light(const Config& config) {
+    std::optional<bool>& known = light_kept[config.linear_bits > 0 ? 1 : 0];
+    if (!known) {
+      const Config finest = finest_config(config.linear_bits > 0);
+      LightErrors light;
+      for (Judged& j : frames)
+        if (j.light) light += light_errors(*j.light, finest_picture(j, finest));
+      known = light.rms() <= limits.color;
+    }
+    return *known;
   }
 };
 
@@ -156,13 +177,19 @@ MeasuredPlan::~MeasuredPlan() = default;
 bool MeasuredPlan::within(const MeasuredErrors& errors) const {
   const MeasuredLimits& l = data_->limits;
   const Accuracy& a = errors.pictures;
-  return (errors.light.rms() <= l.color || !data_->keeps_light) && a.z_max <= l.z && a.color_max <= l.color &&
+  return (errors.light.rms() <= l.color || !errors.light_is_kept) && a.z_max <= l.z && a.color_max <= l.color &&
          (!l.wrong || a.wrong_ppm(data_->pixels) <= *l.wrong);
 }
 
 std::optional<MeasuredErrors> MeasuredPlan::measure(const Config& config, bool whole) {
   data_->judge_all();
+  try {
+    validate(config, "plan");
+  } catch (const Error&) {
+    return std::nullopt;
+  }
   MeasuredErrors all;
+  all.light_is_kept = data_->keeps_light(config);
   for (Judged& j : data_->frames) {
     data_->step();
     try {
@@ -192,7 +219,7 @@ std::string MeasuredPlan::text(const MeasuredErrors& errors) const {
   return fmt::format("{} ppm wrong{}, depth off by {}{}, colour by {}{}{}", wrong, over_wrong, z, over_z,
                      counted(a.color_max, "step"), over_color,
                      errors.light.pixels == 0 ? ""
-                     : data_->keeps_light
+                     : errors.light_is_kept
                          ? fmt::format(", light by {}{}", light, over_light)
                          : fmt::format(", light by {} (no widths keep --max-color {})", light, l.color));
 }
@@ -226,13 +253,13 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
   Config at = widths;
   if (!serves(measure(at))) {
     at = finest_of(at);
-    if (!data_->keeps_light) at.class_bits = widths.class_bits;
+    if (!data_->keeps_light(at)) at.class_bits = widths.class_bits;
     if (!serves(measure(at))) {
       const std::optional<MeasuredErrors> most = measure(at, true);
       throw Error(fmt::format("the finest widths ({}) {}", widths_text(at), most ? "give " + text(*most) : kCannot));
     }
   }
-  const std::vector<Width> list = widths_of(at, data_->keeps_light);
+  const std::vector<Width> list = widths_of(at, data_->keeps_light(at));
   // One width after the other, until a whole round lowers none: then each of them, one less, was over a limit.
   std::vector<std::string> one_less(list.size());
   for (bool lowered = true; lowered;) {

@@ -29,7 +29,8 @@ struct MeasuredLimits {
 /// Errors of the pictures of all frames.
 struct MeasuredErrors {
   Accuracy pictures;
-  LightErrors light;  ///< no pixels with Look::cull, of which rays know nothing
+  LightErrors light;          ///< no pixels with Look::cull, of which rays know nothing
+  bool light_is_kept = true;  ///< the finest widths that show light the same way are within the limit of light
 };
 
 class MeasuredPlan {
@@ -41,9 +42,10 @@ class MeasuredPlan {
   MeasuredPlan(const MeasuredPlan&) = delete;
   MeasuredPlan& operator=(const MeasuredPlan&) = delete;
 
-  /// Lowers Z_BITS, Z_FRAC, COLOR_FRAC, SHADE_FRAC and CLASS_BITS as far as the limits allow and rounds each up to its
-  /// step: PlanOptions::lower. Each reason says what the width gives, and what one less gave. Where the widths it is
-  /// given are not enough, it begins at the finest; Error, which names the limit, if those are not enough either.
+  /// Lowers Z_BITS, Z_FRAC, COLOR_FRAC, SHADE_FRAC, CLASS_BITS and LINEAR_BITS as far as the limits allow and rounds
+  /// each up to its step: PlanOptions::lower. Each reason says what the width gives, and what one less gave. Where the
+  /// widths it is given are not enough, it begins at the finest; Error, which names the limit, if those are not enough
+  /// either.
   void lower(Config& widths, std::vector<PlanReason>& reasons);
 
   /// Result of lower().

@@ -101,6 +101,13 @@ void set_look(SweepPoint& p, const LookAxis& axis, const std::string& value) {
   p.config.class_bits = std::max(2, static_cast<int>(std::bit_width(unsigned(n))));
 }
 
+/// Light after light has no table, one counter, and colours of spans with a sample's fraction.
+void need_linear(Config& c) {
+  c.dsf_bits = std::max(c.dsf_bits, 1);
+  c.smooth = c.lights = c.class_bits = 1;
+  c.color_frac = std::max(c.color_frac, derived::lane_level_bits(c) - 8);
+}
+
 void set_parameter(SweepPoint& p, const ParamInfo& info, const std::string& value) {
   const int n = info.member == &Config::arrangement && value == "systolic" ? 0
                 : info.member == &Config::arrangement && value == "banked"
@@ -115,6 +122,7 @@ void set_parameter(SweepPoint& p, const ParamInfo& info, const std::string& valu
   if ((info.member == &Config::count_bits || info.member == &Config::fsf) && n > 0)
     p.config.dsf_bits = std::max(p.config.dsf_bits, 1);
   if (info.member == &Config::dsf_bits && n > 0) p.config.fsf = 1;
+  if (info.member == &Config::linear_bits && n > 0) need_linear(p.config);
   // A processor for each pixel: no more of them than the picture has columns.
   if (info.member == &Config::arrangement && n == 0) p.config.max_width = p.width;
   for (const RuleInfo& rule : kRules)
@@ -341,6 +349,7 @@ std::vector<SweepPoint> default_points(const SweepPoint& base, const Needs& need
     axes.push_back({"DSF_BITS", texts({0, 1, 2, 3, 4, 8})});
     axes.push_back({"FSF", texts({0})});
     axes.push_back({"SHADE_FRAC", texts({2, 4, 6, 8, 10, 12, 16})});
+    axes.push_back({"LINEAR_BITS", texts({10, 12, 14})});
   }
   if (needs.samples > 1) axes.push_back({"SAMPLES", texts({1, 3, 7, 15, 31, 63, 127, 255})});
   if (derived::has_table(base.config)) axes.push_back({"CLASSES", texts({7, 31, 127, 511, 1024, 2047})});
@@ -378,12 +387,13 @@ std::vector<SweepPoint> with_seeds(std::vector<SweepPoint> points, int seeds) {
 std::string features_text(const Config& c) {
   return fmt::format(
       "arrangement {} lanes {} beat {} channels {} smooth {} shadows {} fsf {} counts {} lights {} table "
-      "{} blend {} units {} classic {}",
+      "{} linear {} blend {} units {} classic {}",
       c.arrangement, c.arrangement == 0 ? 0 : c.lanes, c.beat_words, c.channels, c.smooth,
       c.dsf_bits == 0   ? 0
       : c.dsf_bits == 1 ? 1
                         : 2,
-      c.fsf, c.count_bits > 0 ? 1 : 0, c.lights, derived::has_table(c) ? 1 : 0, c.translucency, c.units, c.classic);
+      c.fsf, c.count_bits > 0 ? 1 : 0, c.lights, derived::has_table(c) ? 1 : 0, c.linear_bits > 0 ? 1 : 0,
+      c.translucency, c.units, c.classic);
 }
 
 }  // namespace kage::explore

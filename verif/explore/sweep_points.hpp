@@ -44,8 +44,8 @@ std::vector<std::string> axis_names();
 SweepAxis parse_axis(const std::string& text);
 
 /// The point with another value of an axis. Values that the new one needs go with it: SAMPLES raises COUNT_BITS,
-/// COLOR_FRAC and MAX_SHADING set SMOOTH, SIZE raises MAX_WIDTH. Values that lose their ground are given up, as all of
-/// the shadows with DSF_BITS 0. Throws Error where the value is none of the axis.
+/// COLOR_FRAC and MAX_SHADING set SMOOTH, SIZE raises MAX_WIDTH, LINEAR_BITS gives up the table. Values that lose their
+/// ground are given up, as all of the shadows with DSF_BITS 0. Throws Error where the value is none of the axis.
 SweepPoint with(const SweepPoint& base, std::string_view axis, const std::string& value);
 
 /// Each value of each axis alone about the base, which is the first.

@@ -236,7 +236,7 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   plan::Features features = data_->features;
   features.needs.width = point.width;
   // Parity is right for any caster.
-  out.config = plan::finest(features, features.needs.shadows ? 1 : 0, 0);
+  out.config = plan::finest(features, {.dsf_bits = features.needs.shadows ? 1 : 0}, 0);
   out.config.z_bits = kGreatest.z_bits;
   out.config.channels = kGreatest.channels;  // a grey scene has a background of another colour
   if (out.config.dsf_bits > 0) {

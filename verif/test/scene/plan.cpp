@@ -242,7 +242,8 @@ TEST_CASE("as many bodies go to units as a core with all room would put there") 
     for (const PlanCandidate& c : plan.others) {
       if (c.config.units == 0) continue;
       CAPTURE(input, c.way, c.config.order_bits);
-      const Config roomy = plan::finest(plan::features_of(scenes), c.config.dsf_bits, kGreatest.units);
+      const Config roomy =
+          plan::finest(plan::features_of(scenes), {c.config.dsf_bits, c.config.linear_bits > 0}, kGreatest.units);
       const auto in_units = [&](const Config& config, int i) {
         SceneFrames frames(scenes[0].scene, config, scenes[0].draw);
         FrameParts parts;
