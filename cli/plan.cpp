@@ -327,7 +327,9 @@ int run(const PlanCommand& o) {
       check_interrupt();
       progress.show(fmt::format("plan: {} drawn", counted(++drawn, "frame")));
     });
-    options.lower = [&measured](Config& widths, std::vector<PlanReason>& reasons) { measured->lower(widths, reasons); };
+    options.lower = [&measured](Config& widths, std::vector<PlanReason>& reasons) {
+      return measured->lower(widths, reasons);
+    };
   }
   const Plan plan = make_plan(scenes, options);
   progress.clear();

@@ -130,7 +130,9 @@ class Band {
     std::vector<std::uint32_t> translucent;
     std::vector<Crossing> near;  // of the volume being worked on
     Touched volume;
-    Touched sample;  // of light
+    Touched sample;          // of light
+    std::size_t passes = 0;  // lights whose RESOLVE has come
+    bool open = false;       // volumes have come, and no RESOLVE behind them
     FrameOrigins origins;
     std::optional<Place> place;  // of the last AT
 
@@ -144,6 +146,8 @@ class Band {
       near.clear();
       volume = {};
       sample = {};
+      passes = 0;
+      open = false;
       place.reset();
     }
   };
@@ -310,16 +314,20 @@ class Band {
     }
     close_sample(sample);
     for (; pass < g_->passes.size(); ++pass) light(pass);
+    // A line without a surface has volumes that no light's spans follow.
+    for (int y = y0_; y < y1_ && layout_ == nullptr && !g_->passes.empty(); ++y)
+      if (at(y).open) resolve(at(y), 0);
+  }
+
+  void resolve(Line& line, int samples) {
+    writer_.write_to(line.shadow);
+    writer_.resolve(samples);
+    line.open = false;
   }
 
   /// The opaque spans once more, with a light's colours, those of units too: behind its volumes.
   void light(std::size_t pass) {
-    for (int y = y0_; y < y1_ && layout_ == nullptr; ++y) {
-      Line& line = at(y);
-      if (line.opaque.empty() && line.shadow.empty() && !f_->tree.any()) continue;
-      writer_.write_to(line.shadow);
-      writer_.resolve(f_->config->count_bits > 0 ? g_->passes[pass] : 0);
-    }
+    const int samples = f_->config->count_bits > 0 ? g_->passes[pass] : 0;
     auto span = kept_.begin();
     for (const std::uint32_t i : work_.polygons) {
       Role role{PolygonWay::polygon, {}, &Line::shadow, {}, 1 + pass};
@@ -330,7 +338,12 @@ class Band {
       }
       const bool as_polygon = made(role.way);
       if (as_polygon) polygon(i, role);
-      for (; span != kept_.end() && span->polygon == i; ++span) drawn_span(i, role, as_polygon, span->y, span->span);
+      for (; span != kept_.end() && span->polygon == i; ++span) {
+        Line& line = at(span->y);
+        if (layout_ == nullptr && line.passes == pass) resolve(line, samples);
+        line.passes = pass + 1;
+        drawn_span(i, role, as_polygon, span->y, span->span);
+      }
     }
   }
 
@@ -381,6 +394,7 @@ class Band {
         if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
       }
       line.sample.add(line.volume.from, line.volume.to);
+      line.open = true;
       line.volume = {};
     }
   }

@@ -115,7 +115,7 @@ void ShapeFinder::find_edges(const ScreenPolygon& p, PolygonShape& shape) {
   shape.words = at_most(more);
 }
 
-// Of depth and range, or with a pass of the colour.
+// Compares range and depth, or with a pass its colour, too.
 void ShapeFinder::compare(const ScreenPolygon& p, PolygonShape& shape, std::optional<std::size_t> pass) {
   Token t;
   t.polygon = depth_of(*config_, p, shape.first);

@@ -64,7 +64,7 @@ class SpanSetup {
     return r;
   }
 
-  /// What is added to a start, in 2^-24.
+  /// The half that a start gets, in 2^-24.
   [[nodiscard]] std::int64_t half() const { return half_ << shift_; }
 
   /// The step of a plane, whatever the span: what at() gives to every span that stays in range.

@@ -20,6 +20,7 @@ namespace {
 struct Way {
   plan::Widths widths;
   std::vector<PlanCandidate> all;
+  std::string unkept;  // how far light is off, if no widths keep the limit
 };
 
 class Planner {
@@ -39,6 +40,13 @@ class Planner {
     check();
     look();
     for (const plan::WayDemand& demand : demands_) add_ways(demand);
+    if (features_.needs.shadows && !linear_ && unkept()) {
+      const std::size_t first = demands_.size();
+      look_at(true);
+      linear_ = true;
+      for (std::size_t i = first; i < demands_.size(); ++i) add_ways(demands_[i]);
+    }
+    leave_unkept();
     choose();
     if (options_.front_end) add_front_end();
     return std::move(out_);
@@ -61,23 +69,23 @@ class Planner {
     // units. Until it is known better there are units, and with shadows two ways: parity and one that counts.
     passes_ = 1 + 3 * (shadows ? 2 : 1);
     units_ = plan::unit_demand_of(scenes_, features_, [this] { step(); });
-    const int of_way = units_.units.value >= 1 ? 3 : 2;
-    passes_ = 1 + of_way * (shadows ? 2 : 1);
+    of_way_ = units_.units.value >= 1 ? 3 : 2;
+    passes_ = 1 + of_way_ * (shadows ? 2 : 1);
     const bool table = features_.needs.lights <= kGreatest.lights;
-    if (table) look_at(false, of_way);
+    if (table) look_at(false);
     too_rough_ = rough_table();
     // With one light a table takes less than light after light, wherever it serves.
     linear_ = shadows && (!table || too_rough_ || features_.needs.lights > 1);
-    if (linear_) look_at(true, of_way);
+    if (linear_) look_at(true);
     if (too_rough_) std::erase_if(demands_, [](const plan::WayDemand& d) { return !d.way.linear; });
-    passes_ = (options_.front_end ? 2 : 1) + of_way * static_cast<int>(demands_.size());
+    passes_ = (options_.front_end ? 2 : 1) + of_way_ * static_cast<int>(demands_.size());
   }
 
   /// Parity, then counting with more and more bits, until there is one volume for each light sample.
-  void look_at(bool linear, int of_way) {
+  void look_at(bool linear) {
     const bool shadows = features_.needs.shadows;
     for (int bits = shadows ? 1 : 0; bits <= (shadows ? kGreatest.dsf_bits : 0); ++bits) {
-      passes_ = std::max(passes_, 1 + of_way * static_cast<int>(demands_.size() + 1));
+      passes_ = std::max(passes_, 1 + of_way_ * static_cast<int>(demands_.size() + 1));
       demands_.push_back(plan::demand_of(scenes_, features_, {bits, linear}, [this] { step(); }));
       if (demands_.back().volumes.value <= 1) break;
     }
@@ -90,6 +98,19 @@ class Planner {
       if (const plan::Most& error = d.class_errors.back(); error.value > options_.limits.color)
         if (!most || error.value > most->value) most = error;
     return most;
+  }
+
+  /// Whether no way keeps the limit of light.
+  [[nodiscard]] bool unkept() const {
+    return std::all_of(ways_.begin(), ways_.end(), [](const Way& w) { return !w.unkept.empty(); });
+  }
+
+  /// Leaves out the ways that do not keep the limit of light, if another one does.
+  void leave_unkept() {
+    if (unkept()) return;
+    for (const Way& w : ways_)
+      if (!w.unkept.empty() && w.widths.config.linear_bits == 0) left_out_ = w.unkept;
+    std::erase_if(ways_, [](const Way& w) { return !w.unkept.empty(); });
   }
 
   /// ACTIVE changes no pixel and no other parameter, so the chosen core gets as much as its frames ask for. The cores
@@ -145,7 +166,7 @@ class Planner {
     way.widths = plan::widths_of(scenes_, features_, demand, units, options_.limits,
                                  options_.lower ? plan::Unkept::finest : plan::Unkept::refuse);
     if (options_.lower) {
-      options_.lower(way.widths.config, way.widths.reasons);
+      way.unkept = options_.lower(way.widths.config, way.widths.reasons);
       way.widths.color_limit = options_.limits.color;
       validate(way.widths.config, "plan");
       way.widths.z_error =
@@ -250,6 +271,7 @@ class Planner {
       const auto r =
           std::find_if(given.begin(), given.end(), [&](const PlanReason& g) { return g.parameter == p.name; });
       std::string text = r != given.end() ? r->text : arrangement_reason(p, way, taken);
+      if (p.member == &Config::class_bits && !left_out_.empty()) text += "; with a table " + left_out_;
       if (p.member == &Config::class_bits && too_rough_)
         text += fmt::format(
             "; {} classes leave shadows {:.2g} steps off, root mean square, in {}, more than --max-color {}",
@@ -312,6 +334,8 @@ class Planner {
   std::vector<plan::WayDemand> demands_;
   std::optional<plan::Most> too_rough_;  // the finest table's error, over the limit
   bool linear_ = false;                  // light after light is costed
+  std::string left_out_;                 // how far off light is with a table that was left out
+  int of_way_ = 2;                       // passes over the frames that a way takes
   std::vector<Way> ways_;
   int passes_ = 1;   // over all frames: those that are known of
   int steps_ = 0;    // frames that were begun, of all passes

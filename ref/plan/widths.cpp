@@ -283,7 +283,7 @@ class Maker {
     begin_color([&] { return keeps(b.max, c.max); },
                 fmt::format("{} one after the other, by {} bits, are off by more where it is dark",
                             counted(static_cast<int>(way_.lights.value), "light"), b.max));
-    set(&Config::smooth, 1, "light after light takes its colours from spans with a fraction");
+    set(&Config::smooth, 1, "light after light takes a fraction of colour, and no core has fewer for it");
     const auto figure = [&](int bits, int frac) { return told_apart(off(bits, frac), out_.color_limit, 2).value; };
     int bits = kLeastLinearBits;
     while (bits < b.max && !keeps(bits, c.max)) ++bits;
@@ -306,7 +306,7 @@ class Maker {
                         : fmt::format("longest span that changes colour {} in {}",
                                       counted(static_cast<int>(pixels), "pixel"), at(way_.color_span)),
                     frac, steps_text(figure(bits, frac)),
-                    frac == floor ? "; one less cannot hold a sample's light"
+                    frac == floor ? "; no core has fewer for a sample's light"
                                   : fmt::format(", with {} by {}, more than --max-color {}", frac - 1,
                                                 figure(bits, frac - 1), out_.color_limit),
                     step_text(frac, taken)));
@@ -415,7 +415,7 @@ double color_error(double pixels, int color_frac) { return pixels * std::ldexp(0
 
 double linear_error(double lights, double samples, double pixels, int linear_bits, int color_frac) {
   constexpr double kSteepest = 12.92 * 255;  // the least light's part of sRGB (IEC 61966-2-1), in steps
-  // What comes from everywhere is rounded once to the pixel's bits. A light is, too, and each of its samples to finer
+  // The light from everywhere is rounded once to the pixel's bits. A light is, too, and each of its samples to finer
   // ones: together less than a step. Slopes are off by half of the fraction's last place at each pixel, in 2^-8.
   const double rounded = (lights + 0.5) * std::ldexp(1.0, -linear_bits);
   const double drawn = (1 + samples) * color_error(pixels, color_frac) / 256;

@@ -60,7 +60,7 @@ class VolumeEnds {
     }
   };
 
-  /// Those that are open.
+  /// Ends the volume and the sample that are open.
   template <class Emit>
   ErrorCode end_volumes(Emit emit) {
     if (in_volume_)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What each step to the truth of light gains and costs (docs/trade.md): two tables in Markdown. 320x240; errors in
+// Steps to the truth of light, with their gains and costs (docs/trade.md): two tables in Markdown. 320x240; errors in
 // steps of 255 over pixels and channels in some shadow, against each light worked out at each pixel
 // (verif/oracle/light_reference.hpp). Clocks are by design and look-up tables estimated, of a core of 8 lanes.
 #include <fmt/format.h>

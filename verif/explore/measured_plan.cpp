@@ -248,7 +248,7 @@ const MeasuredPlan::Lowered* MeasuredPlan::lowered(const Config& config) const {
   return nullptr;
 }
 
-void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
+std::string MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
   const auto serves = [&](const std::optional<MeasuredErrors>& a) { return a && within(*a); };
   Config at = widths;
   if (!serves(measure(at))) {
@@ -323,6 +323,9 @@ void MeasuredPlan::lower(Config& widths, std::vector<PlanReason>& reasons) {
     }
   widths = found.taken;
   data_->lowered.push_back(found);
+  if (found.taken_gives.light_is_kept) return "";
+  return fmt::format("light is {:.2g} steps off, root mean square, more than --max-color {}",
+                     found.taken_gives.light.rms(), data_->limits.color);
 }
 
 }  // namespace kage::explore

@@ -46,7 +46,8 @@ class MeasuredPlan {
   /// each up to its step: PlanOptions::lower. Each reason says what the width gives, and what one less gave. Where the
   /// widths it is given are not enough, it begins at the finest; Error, which names the limit, if those are not enough
   /// either.
-  void lower(Config& widths, std::vector<PlanReason>& reasons);
+  /// @return "", or how far light is off, where no widths that show it the same way are within its limit
+  std::string lower(Config& widths, std::vector<PlanReason>& reasons);
 
   /// Result of lower().
   struct Lowered {

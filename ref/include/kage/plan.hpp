@@ -86,8 +86,9 @@ struct PlanOptions {
   std::function<void(double)> progress{};  ///< called with the share that is done; what it throws ends the plan
   /// Called for each way to draw shadows with the widths that the inequalities give, the finest where none satisfies
   /// them. It may put others in their place, with their reasons (kage plan --guarantee measured), that are legal and
-  /// draw the scenes; that `limits` are kept is then up to it.
-  std::function<void(Config& widths, std::vector<PlanReason>& reasons)> lower{};
+  /// draw the scenes; that `limits` are kept is then up to it. It returns "", or, where no widths show light within the
+  /// limit in this way, how far off it is: such a way is left out where another one keeps it.
+  std::function<std::string(Config& widths, std::vector<PlanReason>& reasons)> lower{};
 };
 
 /// Cost of a configuration for the planned frames.

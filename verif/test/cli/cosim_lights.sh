@@ -32,7 +32,7 @@ trouble "three-lights: configuration default lacks shadows of several lights (LI
   "$kage" render three-lights --config default --out x
 trouble "three-lights: configuration lights lacks soft shadows (COUNT_BITS >= 5)" "$kage" render three-lights --config lights --samples 16 --out x
 
-# As many lights as a core tells apart, and one more; as many as a scene has, and one more.
+# As many lights as a table tells apart, and one more, which come one after the other; as many as a scene has, and one more.
 many() {
   python3 - "$source/scenes/three-lights.gltf" "$1" >"many$1.gltf" <<'PY'
 import json, sys
@@ -60,12 +60,19 @@ sed -n 's/.*with this line in it: //p' stderr >offered.yaml
 grep -q 'COUNT_BITS: 5, LIGHTS: 8' offered.yaml || fail "the line offered is another: $(cat offered.yaml)"
 expect 0 "$kage" render many8.gltf --config offered.yaml --samples 31 --size 64x48 --frames 1 --out x
 for n in 9 64; do
-  trouble "$n lights cast shadows, and a core tells at most 8 apart; with a configuration given, --degrade lets the first one cast alone" \
-    "$kage" render many$n.gltf --samples 3 --out x
-  trouble "many$n.gltf: configuration eight.yaml lacks shadows of $n lights (a core has LIGHTS 8 at most)" \
+  expect 0 "$kage" render many$n.gltf --samples 3 --size 64x48 --frames 1 --out x --json many.json
+  json many.json 'j["config"]["LINEAR_BITS"]==12 and j["config"]["LIGHTS"]==1 and j["spans"] > 0'
+  trouble "many$n.gltf: no named configuration (rtl/defs/configs.yaml) can draw this: the nearest, soft, lacks shadows of $n lights (LINEAR_BITS; a table has LIGHTS 8 at most)" \
+    "$kage" render many$n.gltf --samples 31 --size 64x48 --out x
+  sed -n 's/.*with this line in it: //p' stderr >offered.yaml
+  expect 0 "$kage" render many$n.gltf --config offered.yaml --samples 31 --size 64x48 --frames 1 --out x --json many.json
+  json many.json 'j["config"]["LINEAR_BITS"]==12 and j["config"]["COUNT_BITS"]==5'
+  trouble "many$n.gltf: configuration eight.yaml lacks shadows of $n lights (LINEAR_BITS; a table has LIGHTS 8 at most)" \
     "$kage" render many$n.gltf --config eight.yaml --samples 3 --out x
   expect 0 "$kage" render many$n.gltf --config eight.yaml --samples 3 --degrade --size 64x48 --frames 1 --out x
 done
+expect 0 "$kage" cosim many9.gltf --samples 3 --size 64x48 --frames 1 --out many
+grep -q '^same: 1 frame' stdout || fail "nine lights: $(cat stdout)"
 trouble "many65.gltf: light 1: there are more than 64 lights" "$kage" render many65.gltf --out x
 
 expect 0 "$kage" render three-lights --config default --degrade --size 160x120 --frames 1 --out degraded --json degraded.json

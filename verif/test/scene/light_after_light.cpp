@@ -14,6 +14,7 @@
 #include "oracle/light_reference.hpp"
 #include "stimulus/scenes/lit_scenes.hpp"
 #include "test/support/catch.hpp"
+#include "test/support/polygon_level.hpp"
 
 using namespace kage;
 using namespace kage::verif;
@@ -149,6 +150,21 @@ TEST_CASE("polyhedra in units show what they show as spans, with every light") {
     make_frame(g, c, 0, words, {.threads = 1, .report = &report});
     CHECK((draw(g, c) == spans));
     if (name == "polyhedra") CHECK(std::ranges::any_of(report.unit_of, [](int u) { return u >= 0; }));
+  }
+}
+
+TEST_CASE("at the polygon level light after light is what it is at the span level") {
+  for (const auto& [name, f] : frames()) {
+    CAPTURE(name);
+    Config c = linear(f);
+    c.active = 512;
+    for (const int units : {0, 8}) {
+      c.units = units;
+      const BothLevels both = both_levels(make_geometry(f, c, kWidth, kHeight), c);
+      CHECK(both.fault == "");
+      CHECK(both.polygons.size() < both.spans.size());
+      CHECK(both.report.made().spans > 0);
+    }
   }
 }
 

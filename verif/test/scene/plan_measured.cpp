@@ -76,7 +76,7 @@ TEST_CASE("measured: where the bound's widths are too coarse, or there are none,
     explore::MeasuredPlan measured(scenes, limits, [] {});
     PlanOptions options;
     options.limits.color_given = given;
-    options.lower = [&](Config& widths, std::vector<PlanReason>& reasons) { measured.lower(widths, reasons); };
+    options.lower = [&](Config& widths, std::vector<PlanReason>& reasons) { return measured.lower(widths, reasons); };
     const Plan plan = make_plan(scenes, options);
     CHECK(plan.limits.color == 1);
     CHECK(measured.within(measured.lowered(plan.config)->taken_gives));
@@ -89,7 +89,7 @@ TEST_CASE("measured: the limit that no widths keep is named with the figure that
     explore::MeasuredPlan measured(scenes, limits, [] {});
     PlanOptions options;
     options.limits.z = limits.z;
-    options.lower = [&](Config& widths, std::vector<PlanReason>& reasons) { measured.lower(widths, reasons); };
+    options.lower = [&](Config& widths, std::vector<PlanReason>& reasons) { return measured.lower(widths, reasons); };
     try {
       make_plan(scenes, options);
     } catch (const Error& e) {

@@ -31,6 +31,8 @@ class FrameMaker {
       classes_ = 2;
       g_.shares.resize(std::size_t{2} * static_cast<std::size_t>(c_.lights), {1, 1, 1});
     }
+    if (c_.linear_bits > 0)
+      for (int n = r_.in(1, 3); n > 0; --n) g_.passes.push_back(r_.in(1, (1 << std::max(c_.count_bits, 1)) - 1));
     const int opaque = r_.in(0, 12);
     for (int i = 0; i < opaque; ++i) polygon();
     g_.drawn = static_cast<std::uint32_t>(g_.polygons.size());
@@ -127,6 +129,10 @@ class FrameMaker {
       p.color_planes = static_cast<std::int32_t>(g_.color_planes.size());
       for (int c = 0; c < 3; ++c) g_.color_planes.push_back(plane(8));
     }
+    if (alpha == 255 && !g_.passes.empty()) {
+      p.light_planes = static_cast<std::int32_t>(g_.color_planes.size());
+      for (std::size_t k = 0; k < 3 * (1 + g_.passes.size()); ++k) g_.color_planes.push_back(plane(8));
+    }
     p.lit = c_.dsf_bits > 0 && r_.chance(0.5);
     p.normal_class = p.lit && classes_ > 0 ? static_cast<std::uint32_t>(r_.in(0, classes_)) : 0;
     p.alpha = alpha;
@@ -135,9 +141,10 @@ class FrameMaker {
   }
 
   void volumes() {
-    const int samples = c_.count_bits > 0 ? r_.in(0, 4) : r_.in(0, 1);
+    const int lights = g_.passes.empty() ? c_.lights : static_cast<int>(g_.passes.size());
+    const int samples = c_.count_bits > 0 || !g_.passes.empty() ? r_.in(0, 4) : r_.in(0, 1);
     for (int s = 0; s < samples; ++s) {
-      g_.sample_light.push_back(static_cast<std::uint8_t>(r_.in(s == 0 ? 0 : g_.sample_light.back(), c_.lights - 1)));
+      g_.sample_light.push_back(static_cast<std::uint8_t>(r_.in(s == 0 ? 0 : g_.sample_light.back(), lights - 1)));
       for (int n = c_.fsf != 0 ? r_.in(0, 4) : r_.in(0, 1); n > 0; --n) {
         ShadowVolume v;
         v.sample = static_cast<std::uint32_t>(s);
@@ -207,7 +214,7 @@ TEST_CASE("random polygons at the polygon level give the tokens of the span leve
   std::uint64_t made[3]{};
   for (int round = 0; round < 3000; ++round) {
     Config c = random_config(random, kMaxSize);
-    c.units = c.linear_bits = 0;
+    c.units = 0;
     constexpr std::array kActive{1, 4, 4, 32, 512, 512, 4096};
     c.active = kActive[static_cast<std::size_t>(random.in(0, 6))];
     const int widest = std::min(c.max_width, kMaxSize);
