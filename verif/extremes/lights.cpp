@@ -13,6 +13,7 @@
 #include "kage/light.hpp"
 #include "oracle/light_reference.hpp"
 #include "oracle/light_truth.hpp"
+#include "plan/widths.hpp"
 #include "stimulus/shapes.hpp"
 
 namespace kage::verif {
@@ -242,10 +243,58 @@ Outcome TableCase::check(const Context& context) const {
   return o;
 }
 
+void PassesCase::fields(Fields& f) {
+  f.number("bits", bits, 10, 14, 12);
+  f.list("sun", suns, 1, 8);
+  scene.fields(f, 1, 4);
+}
+
+// docs/plan.md, "Light after light". No span changes its colour here. So a pixel is off by the rounding of each light,
+// and of the light from everywhere, to the pixel's bits, where the curve is steepest, and by that of the display.
+Outcome PassesCase::check(const Context& context) const {
+  constexpr int kWidth = 40;
+  constexpr int kHeight = 30;
+  SceneFrame f = scene.frame();
+  f.lights.clear();
+  for (const TableCase::Sun& s : suns) {
+    Light& l = f.lights.emplace_back();
+    l.direction = direction_of(s.x, s.y, s.z, {0, -1, 0});
+    l.color = glm::dvec3(s.red, s.green, s.blue) / static_cast<double>(suns.size());
+  }
+  Config c;
+  c.linear_bits = bits;
+  c.smooth = 1;
+  c.color_frac = bits - 8;
+  const Look look = scene.look();
+  auto got = draw(make_geometry(f, c, kWidth, kHeight, {.look = look}), c);
+  context.spoil(got);
+  const RayScene rays(f);
+  std::vector<std::vector<LightPoint>> points;
+  for (const Light& l : f.lights) points.push_back({l});
+  const LightReference reference(f, rays, std::move(points), kWidth, kHeight);
+  // A snap moves what a pixel shows by half of its step.
+  const double off = std::ldexp(1.0, -look.sub_bits) * 2;
+  const double bound = 0.5 + plan::linear_error(static_cast<double>(suns.size()), 0, 0, bits, c.color_frac);
+  Outcome o;
+  for (int y = 0; y < kHeight; ++y)
+    for (int x = 0; x < kWidth; ++x) {
+      const ReferencePixel p = reference.pixel_with_ties(x, y, off);
+      if (p.tie || p.face == kNothing) continue;
+      ++o.pixels;
+      for (int k = 0; k < 3; ++k)
+        o.measure(std::abs((got[static_cast<std::size_t>(y) * kWidth + static_cast<std::size_t>(x)] >> (8 * k) & 255U) -
+                           p.color[k]),
+                  bound);
+    }
+  return o;
+}
+
 void add_light_families(Families& to) {
   add_family<SamplesCase>(to, {29, "29", "samples of lights: what a counter holds, and more, in any order"});
   add_family<LitSceneCase>(to, {29, "29 frames", "pictures of several lights and samples from hard shadows alone"});
   add_family<TableCase>(to, {30, "30", "what a table takes of a face, in every state of shadow", "LSB", 400});
+  add_family<PassesCase>(to,
+                         {30, "30 passes", "pictures of several suns by light after light, at each pixel", "LSB", 40});
 }
 
 }  // namespace kage::verif

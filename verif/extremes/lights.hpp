@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Cases of families 29 and 30: samples of lights, and the table of what each light gives to faces of each direction.
+// Cases of families 29 and 30: samples of lights, the table of what each light gives to faces of each direction, and
+// light after light.
 #pragma once
 
 #include <vector>
@@ -60,6 +61,16 @@ struct TableCase {
   void fields(Fields& f);
   /// Holds, in every state of shadow, what the face's entry takes against the light of the model, added in linear
   /// light.
+  [[nodiscard]] Outcome check(const Context& context) const;
+};
+
+/// Family 30: whole pictures by light after light, of several suns over solids of one colour each.
+struct PassesCase {
+  int bits = 12;  ///< LINEAR_BITS
+  std::vector<TableCase::Sun> suns;
+  SceneCase scene;
+  void fields(Fields& f);
+  /// Holds each pixel against each light worked out there.
   [[nodiscard]] Outcome check(const Context& context) const;
 };
 

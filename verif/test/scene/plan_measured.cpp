@@ -26,13 +26,14 @@ TEST_CASE("measured: what is kept is within the limits, and every width one less
     options.limits.color = limits.color;
     std::vector<Config> raw;
     options.lower = [&](Config& widths, std::vector<PlanReason>& reasons) {
-      measured.lower(widths, reasons);
+      std::string unkept = measured.lower(widths, reasons);
       Config least = widths;
       for (const PlanReason& r : reasons)
         if (r.text.rfind("measured: ", 0) == 0)
           for (const ParamInfo& p : kParams)
             if (p.name == r.parameter) least.*(p.member) = before(r.text, " give ");
       raw.push_back(least);
+      return unkept;
     };
     const Plan plan = make_plan(scenes, options);
     CHECK(plan.limits.color == limits.color);
