@@ -266,14 +266,21 @@ std::string widened(Config config, const Needs& needs) {
 }  // namespace
 
 NamedConfig choose_config(const Needs& needs) {
+  // Where several lack as much, the first is named that a file could make do: no table has more than its lights.
+  const auto hopeless = [&](const Config& c) {
+    return needs.shadows && needs.lights > most_lights() && c.linear_bits == 0 ? 1 : 0;
+  };
   std::string nearest;
   std::vector<std::string> lacking;
+  std::pair<std::size_t, int> least;
   for (const NamedConfig& n : named_configs()) {
     const auto missing = lacks(n.config, needs);
     if (missing.empty()) return n;
-    if (!nearest.empty() && missing.size() >= lacking.size()) continue;
+    const std::pair distance(missing.size(), hopeless(n.config));
+    if (!nearest.empty() && distance >= least) continue;
     nearest = n.name;
     lacking = missing;
+    least = distance;
   }
   throw Error(fmt::format("no named configuration (rtl/defs/configs.yaml) can draw this: the nearest, {}, lacks {}",
                           nearest, fmt::join(lacking, ", ")));

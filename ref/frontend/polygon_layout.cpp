@@ -57,10 +57,12 @@ PolygonLayout::PolygonLayout(const FrameGeometry& geometry, const Config& config
 }
 
 bool PolygonLayout::fits(const FrameGeometry& g) {
+  // With linear light each light has a number among the samples for its own spans.
+  if (!g.passes.empty() && g.sample_light.size() + g.passes.size() > kMostSamples) return false;
   std::uint32_t in_sample = 0;
   for (std::size_t v = 0; v < g.volumes.size(); ++v) {
     in_sample = v > 0 && g.volumes[v].sample == g.volumes[v - 1].sample ? in_sample + 1 : 0;
-    if (in_sample >= kMostVolumes || g.volumes[v].sample + g.passes.size() >= kMostSamples) return false;
+    if (in_sample >= kMostVolumes || g.volumes[v].sample >= kMostSamples) return false;
   }
   return true;
 }

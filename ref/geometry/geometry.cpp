@@ -180,7 +180,7 @@ LightDemand light_demand(const SceneFrame& frame, const Config& config, const Lo
   const Lighting lighting(frame.lights, lights, frame.camera.up, false);
   const LightTable table(frame, config, look, lights, lighting);
   const FaceShading shading(frame, config, lights, lighting, table);
-  LightDemand demand{table.error(), 0};
+  LightDemand demand{std::hypot(table.error(), table.law_error()), 0};
   if (std::all_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return l.directional; }))
     return demand;
   const auto area_of = [&](std::uint32_t i) {

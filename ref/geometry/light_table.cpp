@@ -219,13 +219,14 @@ void LightTable::make_entries(const std::vector<bool>& limited) {
 }
 
 void LightTable::measure(const WeightedVectors& all, const std::vector<std::uint32_t>& of, double area) {
-  double squares = law_;
+  double squares = 0;
   for (std::size_t i = 0; i < of.size(); ++i)
     for (std::size_t d = 0; d < numbers_; ++d) {
       const double off = all.value(i)[d] - entries_[of[i] * numbers_ + d];
       squares += all.weight(i)[d] * (off * off);
     }
   error_ = area > 0 ? std::sqrt(squares / area) : 0;
+  law_error_ = area > 0 ? std::sqrt(law_ / area) : 0;
 }
 
 // One share for all faces, channels and lights: that of least error.

@@ -75,10 +75,13 @@ class LightTable {
   /// Whether the shadow volume that a side throws counts the points behind it.
   [[nodiscard]] bool shadows_itself(const FaceSide& side) const;
 
-  /// How far colours in the full shadow of a light are off because a class has one share, and because shares of several
-  /// lights are added, in steps of 255. It is the root mean square over lights, channels, and the area of the sides
-  /// that casters may keep light from; half of the shadows are of a light alone, half of all lights together.
+  /// How far colours in the full shadow of a light are off because a class has one share, in steps of 255. It is the
+  /// root mean square over lights, channels, and the area of the sides that casters may keep light from.
   [[nodiscard]] double error() const { return error_; }
+
+  /// Likewise, because shares of several lights are added, although the display's curve is no straight line. Half of
+  /// the shadows are of a light alone, half of all lights together.
+  [[nodiscard]] double law_error() const { return law_error_; }
 
   /// FrameGeometry::shade or shares.
   void put(FrameGeometry& out) const;
@@ -130,6 +133,7 @@ class LightTable {
   std::vector<double> middles_;  // of each class, a light's channels one after the other
   std::vector<double> entries_;  // these, rounded to SHADE_FRAC
   double error_ = 0;
+  double law_error_ = 0;
   double law_ = 0;                           // Loss::law of all
   std::vector<std::array<Known, 2>> known_;  // of each polygon's outside and inside
   std::size_t extra_ = 0;                    // parts beyond one of each side

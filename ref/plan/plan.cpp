@@ -39,14 +39,8 @@ class Planner {
     out_.size = {features_.needs.width, features_.needs.height};
     check();
     look();
-    for (const plan::WayDemand& demand : demands_) add_ways(demand);
-    if (features_.needs.shadows && !linear_ && unkept()) {
-      const std::size_t first = demands_.size();
-      look_at(true);
-      linear_ = true;
-      for (std::size_t i = first; i < demands_.size(); ++i) add_ways(demands_[i]);
-    }
-    leave_unkept();
+    if (ways_.empty()) throw Error(*refused_);
+    leave_out();
     choose();
     if (options_.front_end) add_front_end();
     return std::move(out_);
@@ -71,46 +65,55 @@ class Planner {
     units_ = plan::unit_demand_of(scenes_, features_, [this] { step(); });
     of_way_ = units_.units.value >= 1 ? 3 : 2;
     passes_ = 1 + of_way_ * (shadows ? 2 : 1);
-    const bool table = features_.needs.lights <= kGreatest.lights;
+    const bool table = !shadows || features_.needs.lights <= kGreatest.lights;
     if (table) look_at(false);
-    too_rough_ = rough_table();
     // With one light a table takes less than light after light, wherever it serves.
-    linear_ = shadows && (!table || too_rough_ || features_.needs.lights > 1);
+    linear_ = shadows && (!table || features_.needs.lights > 1 || !serves());
     if (linear_) look_at(true);
-    if (too_rough_) std::erase_if(demands_, [](const plan::WayDemand& d) { return !d.way.linear; });
-    passes_ = (options_.front_end ? 2 : 1) + of_way_ * static_cast<int>(demands_.size());
   }
 
   /// Parity, then counting with more and more bits, until there is one volume for each light sample.
   void look_at(bool linear) {
     const bool shadows = features_.needs.shadows;
+    const std::size_t first = demands_.size();
+    const auto count_passes = [this](std::size_t demands) {
+      passes_ = (options_.front_end ? 2 : 1) + of_way_ * static_cast<int>(demands);
+    };
     for (int bits = shadows ? 1 : 0; bits <= (shadows ? kGreatest.dsf_bits : 0); ++bits) {
-      passes_ = std::max(passes_, 1 + of_way_ * static_cast<int>(demands_.size() + 1));
+      count_passes(std::max(demands_.size() + 1, first + 2));
       demands_.push_back(plan::demand_of(scenes_, features_, {bits, linear}, [this] { step(); }));
       if (demands_.back().volumes.value <= 1) break;
     }
+    count_passes(demands_.size());
+    for (std::size_t i = first; i < demands_.size(); ++i) add_ways(demands_[i]);
   }
 
-  /// The error of the finest table, where that is more than the limit.
-  [[nodiscard]] std::optional<plan::Most> rough_table() const {
-    std::optional<plan::Most> most;
-    for (const plan::WayDemand& d : demands_)
-      if (const plan::Most& error = d.class_errors.back(); error.value > options_.limits.color)
-        if (!most || error.value > most->value) most = error;
-    return most;
+  /// The limit of colour that a way is sure to keep: its widths', and its classes'. Pictures say it of ways that were
+  /// measured.
+  [[nodiscard]] int kept_by(const Way& w) const {
+    if (options_.lower) return w.unkept.empty() ? 0 : 1;
+    return std::max(w.widths.color_limit, static_cast<int>(std::ceil(w.widths.class_error.value)));
   }
-
-  /// Whether no way keeps the limit of light.
-  [[nodiscard]] bool unkept() const {
-    return std::all_of(ways_.begin(), ways_.end(), [](const Way& w) { return !w.unkept.empty(); });
+  /// The least of them.
+  [[nodiscard]] int least_kept() const {
+    int least = 256;
+    for (const Way& w : ways_) least = std::min(least, kept_by(w));
+    return least;
   }
+  /// Whether some way keeps what was asked for.
+  [[nodiscard]] bool serves() const { return least_kept() <= (options_.lower ? 0 : options_.limits.color); }
 
-  /// Leaves out the ways that do not keep the limit of light, if another one does.
-  void leave_unkept() {
-    if (unkept()) return;
+  /// Leaves out the ways that keep less than another one does, or than was asked for.
+  void leave_out() {
+    const int limit = options_.lower ? least_kept() : std::max(least_kept(), options_.limits.color);
     for (const Way& w : ways_)
-      if (!w.unkept.empty() && w.widths.config.linear_bits == 0) left_out_ = w.unkept;
-    std::erase_if(ways_, [](const Way& w) { return !w.unkept.empty(); });
+      if (kept_by(w) > limit && w.widths.config.linear_bits == 0)
+        left_out_ = options_.lower ? "with a table " + w.unkept
+                                   : fmt::format("{} classes leave shadows {:.2g} steps off, root mean square, in {}",
+                                                 (1 << w.widths.config.class_bits) - 1, w.widths.class_error.value,
+                                                 plan::text_of(scenes_, w.widths.class_error.at)) +
+                                         fmt::format(", more than --max-color {}", limit);
+    std::erase_if(ways_, [&](const Way& w) { return kept_by(w) > limit; });
   }
 
   /// ACTIVE changes no pixel and no other parameter, so the chosen core gets as much as its frames ask for. The cores
@@ -163,8 +166,13 @@ class Planner {
 
   void add_way(const plan::WayDemand& demand, const plan::UnitDemand* units) {
     Way way;
-    way.widths = plan::widths_of(scenes_, features_, demand, units, options_.limits,
-                                 options_.lower ? plan::Unkept::finest : plan::Unkept::refuse);
+    try {
+      way.widths = plan::widths_of(scenes_, features_, demand, units, options_.limits,
+                                   options_.lower ? plan::Unkept::finest : plan::Unkept::refuse);
+    } catch (const Error& e) {
+      if (!refused_) refused_ = e.what();
+      return;
+    }
     if (options_.lower) {
       way.unkept = options_.lower(way.widths.config, way.widths.reasons);
       way.widths.color_limit = options_.limits.color;
@@ -271,12 +279,8 @@ class Planner {
       const auto r =
           std::find_if(given.begin(), given.end(), [&](const PlanReason& g) { return g.parameter == p.name; });
       std::string text = r != given.end() ? r->text : arrangement_reason(p, way, taken);
-      if (p.member == &Config::class_bits && !left_out_.empty()) text += "; with a table " + left_out_;
-      if (p.member == &Config::class_bits && too_rough_)
-        text += fmt::format(
-            "; {} classes leave shadows {:.2g} steps off, root mean square, in {}, more than --max-color {}",
-            (1 << plan::kClassSteps.back()) - 1, too_rough_->value, plan::text_of(scenes_, too_rough_->at),
-            options_.limits.color);
+      if (p.member == &Config::class_bits && taken.config.linear_bits > 0 && !left_out_.empty())
+        text += "; " + left_out_;
       if (p.member == &Config::lights && features_.needs.lights > kGreatest.lights)
         text += fmt::format("; a table tells {} apart at most", kGreatest.lights);
       out_.reasons.push_back({p.name, out_.config.*(p.member), std::move(text)});
@@ -332,10 +336,10 @@ class Planner {
   plan::Features features_;
   plan::UnitDemand units_;
   std::vector<plan::WayDemand> demands_;
-  std::optional<plan::Most> too_rough_;  // the finest table's error, over the limit
-  bool linear_ = false;                  // light after light is costed
-  std::string left_out_;                 // how far off light is with a table that was left out
-  int of_way_ = 2;                       // passes over the frames that a way takes
+  std::optional<std::string> refused_;  // why the first way that was refused was
+  bool linear_ = false;                 // light after light is costed
+  std::string left_out_;                // how far off light is with a table that was left out
+  int of_way_ = 2;                      // passes over the frames that a way takes
   std::vector<Way> ways_;
   int passes_ = 1;   // over all frames: those that are known of
   int steps_ = 0;    // frames that were begun, of all passes

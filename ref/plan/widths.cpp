@@ -198,6 +198,7 @@ class Maker {
     std::size_t step = 0;
     while (step + 1 < kClassSteps.size() && way_.class_errors[step].value > limits_.color) ++step;
     const Most& error = way_.class_errors[step];
+    out_.class_error = error;
     const std::string before = step > 0 ? fmt::format("; {} leave {}, more than --max-color {}", kClassSteps[step - 1],
                                                       steps(way_.class_errors[step - 1].value), limits_.color)
                                : needs.lights > 1

@@ -56,6 +56,7 @@ struct Widths {
   Config config;
   std::vector<PlanReason> reasons;  ///< of each parameter that a scene decides
   int color_limit = 1;              ///< as kept
+  Most class_error;                 ///< of the classes that were taken
   double z_error = 0;               ///< bound of the depth's error, as a share of the range
 };
 

@@ -241,7 +241,7 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   out.config.channels = kGreatest.channels;  // a grey scene has a background of another colour
   if (out.config.dsf_bits > 0) {
     out.config.count_bits = kGreatest.count_bits;
-    out.config.class_bits = kGreatest.class_bits;
+    if (out.config.linear_bits == 0) out.config.class_bits = kGreatest.class_bits;
   }
   out.look.sub_bits = kMostSubBits;
   out.look.samples = kMaxSamples;

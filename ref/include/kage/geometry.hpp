@@ -279,7 +279,8 @@ struct GeometryOptions {
 
 /// How far a frame's light is off on a core, in steps of 255.
 struct LightDemand {
-  /// In shadow, because faces share what shadows take: root mean square over those that casters may keep light from.
+  /// In shadow, because faces share what shadows take, and because shares of several lights are added. It is the root
+  /// mean square over the faces that casters may keep light from, in the shadow of each light and of all.
   double share_error = 0;
   /// With one colour a polygon, the mean of its corners': most that light is from it, at corners and on a grid between
   /// them. A large face has a grid of 16 parts a side, so that a narrower cone may be missed.

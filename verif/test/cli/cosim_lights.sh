@@ -62,7 +62,7 @@ expect 0 "$kage" render many8.gltf --config offered.yaml --samples 31 --size 64x
 for n in 9 64; do
   expect 0 "$kage" render many$n.gltf --samples 3 --size 64x48 --frames 1 --out x --json many.json
   json many.json 'j["config"]["LINEAR_BITS"]==12 and j["config"]["LIGHTS"]==1 and j["spans"] > 0'
-  trouble "many$n.gltf: no named configuration (rtl/defs/configs.yaml) can draw this: the nearest, soft, lacks shadows of $n lights (LINEAR_BITS; a table has LIGHTS 8 at most)" \
+  trouble "many$n.gltf: no named configuration (rtl/defs/configs.yaml) can draw this: the nearest, linear, lacks soft shadows (COUNT_BITS >= 5)" \
     "$kage" render many$n.gltf --samples 31 --size 64x48 --out x
   sed -n 's/.*with this line in it: //p' stderr >offered.yaml
   expect 0 "$kage" render many$n.gltf --config offered.yaml --samples 31 --size 64x48 --frames 1 --out x --json many.json

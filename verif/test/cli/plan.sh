@@ -140,15 +140,23 @@ grep -qE '^# measured in these frames: .*, colour by [01] steps?, light by 0\.[0
 grep -qE '^SHADE_FRAC: .*; [0-9]+ give .* \(over --max-color 1\)' stdout || fail "$(grep SHADE_FRAC stdout)"
 json wider.json 'j["limits"]["max_color"] == 1 and j["measured"]["color_steps"] <= 1'
 
+# A way that keeps the limit is planned, whatever another way is sure of; and the progress ends at the whole.
+expect 0 "$kage" plan three-lights --size 160x48 --frames 1 --samples 255 --max-shading 0 --max-color 3
+grep -q '^LINEAR_BITS: 0 ' stdout || fail "$(cat stdout)"
+expect 0 "$kage" plan three-lights --size 160x48 --frames 1 --samples 255 --max-shading 0
+grep -q '^# depth .*, colour at most 3/255 ' stdout || fail "$(cat stdout)"
+
 # Light after light: where no table keeps the limit, by its own figure or by pictures, and where there are more lights than it has.
 expect 0 "$kage" plan three-lights --size 48x36 --frames 2 --samples 31 --guarantee measured --json linear.json
-grep -qE '^CLASS_BITS: 1 .*; 2047 classes leave shadows [0-9.]+ steps off, root mean square, in frame [01], more than --max-color 1$' stdout || fail "$(cat stdout)"
+grep -qE '^CLASS_BITS: 1 .*; with a table light is [0-9.]+ steps off, root mean square, more than --max-color 1$' stdout || fail "$(cat stdout)"
 json linear.json 'j["config"]["LINEAR_BITS"] >= 10 and j["config"]["COUNT_BITS"] == 5 and 0 < j["measured"]["light_rms"] <= 1'
 expect 0 "$kage" plan inside --size 64x48 --frames 1 --guarantee measured --json linear.json
 grep -qE '^CLASS_BITS: 1 .*; with a table light is [0-9.]+ steps off, root mean square, more than --max-color 1$' stdout || fail "$(cat stdout)"
 json linear.json 'j["config"]["LINEAR_BITS"] >= 10 and 0 < j["measured"]["light_rms"] <= 1'
 expect 0 "$kage" plan three-lights --size 48x36 --frames 1 --max-color 8 --json table.json
 json table.json 'j["config"]["LINEAR_BITS"] == 0 and any("light after light" in c["way"] for c in j["others"])'
+expect 0 "$kage" plan three-lights --size 48x36 --frames 1 --max-color 1
+grep -qE '^CLASS_BITS: 1 .*; 2047 classes leave shadows [0-9.]+ steps off, root mean square, in frame 0, more than --max-color 1$' stdout || fail "$(cat stdout)"
 python3 - "$source/scenes/three-lights.gltf" >twelve.gltf <<'PY'
 import json, sys
 scene = json.load(open(sys.argv[1]))
@@ -157,6 +165,8 @@ for i in range(9):
     scene["nodes"].append({"rotation": [-0.4, 0.01 * i, 0, 0.9], "extensions": {"KHR_lights_punctual": {"light": 1}}})
 print(json.dumps(scene))
 PY
+expect 0 "$kage" plan twelve.gltf --size 48x36 --frames 1 --alpha 0.5
+grep -q '^LINEAR_BITS: 0 .*# no shadows$' stdout || fail "$(cat stdout)"
 for guarantee in bound measured; do
   expect 0 "$kage" plan twelve.gltf --size 48x36 --frames 1 --samples 3 --guarantee $guarantee
   grep -q '^LIGHTS: 1 .*one counter for 12 lights, one after the other; a table tells 8 apart at most$' stdout || fail "$(cat stdout)"

@@ -23,7 +23,6 @@ using Words = std::vector<std::uint32_t>;
 /// Any configuration with a front end, mostly of few polygons at once.
 Config config_with_front_end(Random& random, int width) {
   Config c = random_config(random, width);
-  c.linear_bits = 0;  // which goes without a front end
   c.active = random.chance(0.7) ? random.in(1, 12) : random.in(1, kGreatest.active);
   return c;
 }

@@ -104,7 +104,6 @@ TEST_CASE(
   int changed = 0;
   for (int round = 0; round < 60; ++round) {
     Config c = random_config(random, 60);
-    c.linear_bits = 0;  // which goes without a front end
     c.active = random.in(1, 8);
     Words polygons;
     random_polygon_frame(random, c, random.in(1, 60), random.in(1, 8), polygons, 5);

@@ -45,7 +45,7 @@ TEST_CASE("the golden core makes the same of a frame however it is cut, one fram
   Random random(test_seed());
   CAPTURE(test_seed());
   std::array<int, kErrorNames.size()> errors{};
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 500; ++round) {
     const Config c = random_config(random, 200);
     GoldenCore core(c);
     for (std::uint32_t number = 0; number < 4; ++number) {
