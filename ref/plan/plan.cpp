@@ -7,6 +7,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "contract/derived.hpp"
 #include "kage/error.hpp"
 #include "number/counted.hpp"
 #include "plan/costs.hpp"
@@ -100,20 +101,30 @@ class Planner {
     for (const Way& w : ways_) least = std::min(least, kept_by(w));
     return least;
   }
-  /// Whether some way keeps what was asked for.
-  [[nodiscard]] bool serves() const { return least_kept() <= (options_.lower ? 0 : options_.limits.color); }
+  /// Whether the classes of some way keep what was asked for, or its pictures, if they were measured.
+  [[nodiscard]] bool serves() const {
+    return std::any_of(ways_.begin(), ways_.end(), [this](const Way& w) { return w.unkept.empty() && !is_rough(w); });
+  }
+  [[nodiscard]] bool is_rough(const Way& w) const {
+    return !options_.lower && w.widths.class_error.value > options_.limits.color;
+  }
 
   /// Leaves out the ways that keep less than another one does, or than was asked for.
   void leave_out() {
+    const bool by_table = std::any_of(ways_.begin(), ways_.end(), [this](const Way& w) {
+      return w.widths.config.linear_bits == 0 && w.unkept.empty() && !is_rough(w);
+    });
     const int limit = options_.lower ? least_kept() : std::max(least_kept(), options_.limits.color);
+    // Where the classes of a table are near enough, roundings alone leave no way out.
+    const auto keeps = [&](const Way& w) { return by_table ? w.unkept.empty() && !is_rough(w) : kept_by(w) <= limit; };
     for (const Way& w : ways_)
-      if (kept_by(w) > limit && w.widths.config.linear_bits == 0)
+      if (!keeps(w) && w.widths.config.linear_bits == 0)
         left_out_ = options_.lower ? "with a table " + w.unkept
                                    : fmt::format("{} classes leave shadows {:.2g} steps off, root mean square, in {}",
-                                                 (1 << w.widths.config.class_bits) - 1, w.widths.class_error.value,
+                                                 derived::most_class(w.widths.config), w.widths.class_error.value,
                                                  plan::text_of(scenes_, w.widths.class_error.at)) +
                                          fmt::format(", more than --max-color {}", limit);
-    std::erase_if(ways_, [&](const Way& w) { return kept_by(w) > limit; });
+    std::erase_if(ways_, [&](const Way& w) { return !keeps(w); });
   }
 
   /// ACTIVE changes no pixel and no other parameter, so the chosen core gets as much as its frames ask for. The cores
@@ -171,6 +182,8 @@ class Planner {
                                    options_.lower ? plan::Unkept::finest : plan::Unkept::refuse);
     } catch (const Error& e) {
       if (!refused_) refused_ = e.what();
+      if (!demand.way.linear)
+        left_out_ = fmt::format("with a table no widths keep --max-color {}", options_.limits.color);
       return;
     }
     if (options_.lower) {

@@ -255,7 +255,9 @@ void damage_polygons(Random& random, const Config& c, std::vector<std::uint32_t>
             places.put(at, layout.at_layer, static_cast<std::uint64_t>(random.in(0, 3)));
             break;
           case 1:
-            places.put(at, layout.at_light, static_cast<std::uint64_t>(random.in(0, 7)));
+            // With linear light 1 makes spans of a volume stand where a light's own are.
+            places.put(at, layout.at_light,
+                       static_cast<std::uint64_t>(random.in(0, c.linear_bits > 0 && random.chance(0.7) ? 1 : 7)));
             break;
           case 2:
             places.put(at, layout.at_volume, places.get(at, layout.at_volume) - 1);

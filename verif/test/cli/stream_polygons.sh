@@ -36,7 +36,7 @@ json f.json 'j["config"]["ACTIVE"]==4 and j["polygons"]["ways"]["active"]["spans
 
 # Translucent faces that are cut; units; a copy.
 expect 0 "$kage" stream glass --size 96x64 --frames 1 --level polygons --out glass.kage
-grep -q 'cut by other translucent faces [0-9.]* %' stdout || fail "cuts are no cause: $(cat stdout)"
+grep -q 'parted by other translucent faces or by dicing [0-9.]* %' stdout || fail "cuts are no cause: $(cat stdout)"
 expect 0 "$kage" stream polyhedra --size 96x64 --frames 1 --config polyhedra --level polygons --out units.kage
 expect 0 "$kage" render units.kage --out units
 expect 0 "$kage" render polyhedra --size 96x64 --frames 1 --config polyhedra --out units_direct

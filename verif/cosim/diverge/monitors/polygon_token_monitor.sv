@@ -71,9 +71,9 @@ module polygon_token_monitor #(
         end
       endcase
     end
-    // With linear light: the place is of a light's own spans, which are OPs.
+    // With linear light: the place is of a light's own spans, which are OPs. A light above 1 is at fault before.
     of_light = LINEAR_BITS > 0 && place_q[PlaceBits-1-:LayerBits] == 2'd1 &&
-        place_q[RankBits+VolumeBits+:LightPlaceBits] == 3'd1;
+        32'(place_q[RankBits+VolumeBits+:LightPlaceBits]) % 2 == 1;
     of_span = kind == KindOp && !of_light ? 2'd0 : kind == KindTp ? 2'd2 : 2'd1;
     if (expected.at_token) begin
       expected.misplaced = layer == 2'd3 || (layer == 2'd2 && TRANSLUCENCY == 0) || (layer == 2'd1 && DSF_BITS == 0) ||

@@ -45,7 +45,7 @@ TEST_CASE("the golden core makes the same of a frame however it is cut, one fram
   Random random(test_seed());
   CAPTURE(test_seed());
   std::array<int, kErrorNames.size()> errors{};
-  for (int round = 0; round < 500; ++round) {
+  for (int round = 0; round < 400; ++round) {
     const Config c = random_config(random, 200);
     GoldenCore core(c);
     for (std::uint32_t number = 0; number < 4; ++number) {
@@ -57,7 +57,7 @@ TEST_CASE("the golden core makes the same of a frame however it is cut, one fram
       else
         random_frame(random, c, width, height, words, number);
       if (random.chance(0.6)) damage(random, words);
-      if (random.chance(0.1)) damage_polygons(random, c, words);
+      if (random.chance(0.4)) damage_polygons(random, c, words);
       CAPTURE(round, number, to_yaml(c));
       std::vector<std::uint8_t> pixels;
       int lines = 0;
