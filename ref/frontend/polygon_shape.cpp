@@ -59,22 +59,25 @@ PolygonShape ShapeFinder::find(const ScreenPolygon& p, bool drawn) {
   if (!fits(p.depth, derived::plane_bits(*config_))) return both(PolygonWay::wide);
   both(PolygonWay::polygon);
   find_edges(p, shape);
-  compare(p, shape, std::nullopt);
-  if (!color || shape.as_drawn != PolygonWay::polygon) return shape;
-  if (p.shade_cut >= 0) {
-    shape.as_drawn = PolygonWay::cut;
-    return shape;
-  }
-  const std::size_t passes = p.light_planes >= 0 ? g_->passes.size() : 0;
-  for (std::size_t pass = 0; pass <= passes && shape.as_drawn == PolygonWay::polygon; ++pass) {
-    bool color_fits = true;
+  const auto color_fits = [&](std::size_t pass) {
+    bool all = true;
     for (std::size_t c = 0; c < static_cast<std::size_t>(config_->channels); ++c)
-      color_fits = color_fits && fits(color_plane(*g_, p, c, pass), kColorPlaneBits);
-    if (color_fits)
-      compare(p, shape, pass);
-    else
-      shape.as_drawn = PolygonWay::wide;
+      all = all && fits(color_plane(*g_, p, c, pass), kColorPlaneBits);
+    return all;
+  };
+  const bool whole = color && p.shade_cut < 0;
+  const std::size_t passes = whole && p.light_planes >= 0 ? g_->passes.size() : 0;
+  bool narrow = !color || color_fits(0);
+  compare(p, shape, whole && narrow ? std::optional<std::size_t>(0) : std::nullopt);
+  for (std::size_t pass = 1; pass <= passes && narrow && shape.as_drawn == PolygonWay::polygon; ++pass) {
+    narrow = color_fits(pass);
+    if (narrow) compare(p, shape, pass);
   }
+  if (shape.as_drawn != PolygonWay::polygon) return shape;
+  if (color && !whole)
+    shape.as_drawn = PolygonWay::cut;
+  else if (!narrow)
+    shape.as_drawn = PolygonWay::wide;
   return shape;
 }
 
@@ -147,10 +150,7 @@ void ShapeFinder::compare(const ScreenPolygon& p, PolygonShape& shape, std::opti
     if (pass) {
       SpanToken s = next->span;
       spans_.paint(p, y, *pass, s);
-      if (made.color != s.color || made.dcolor != s.dcolor) {
-        shape.as_drawn = PolygonWay::rounded;
-        return;
-      }
+      if (made.color != s.color || made.dcolor != s.dcolor) shape.as_drawn = PolygonWay::rounded;
     }
     ++next;
   }

@@ -65,7 +65,6 @@ class Planner {
     passes_ = 1 + 3 * (shadows ? 2 : 1);
     units_ = plan::unit_demand_of(scenes_, features_, [this] { step(); });
     of_way_ = units_.units.value >= 1 ? 3 : 2;
-    passes_ = 1 + of_way_ * (shadows ? 2 : 1);
     const bool table = !shadows || features_.needs.lights <= kGreatest.lights;
     if (table) look_at(false);
     // With one light a table takes less than light after light, wherever it serves.
@@ -111,20 +110,18 @@ class Planner {
 
   /// Leaves out the ways that keep less than another one does, or than was asked for.
   void leave_out() {
-    const bool by_table = std::any_of(ways_.begin(), ways_.end(), [this](const Way& w) {
-      return w.widths.config.linear_bits == 0 && w.unkept.empty() && !is_rough(w);
-    });
-    const int limit = options_.lower ? least_kept() : std::max(least_kept(), options_.limits.color);
-    // Where the classes of a table are near enough, roundings alone leave no way out.
-    const auto keeps = [&](const Way& w) { return by_table ? w.unkept.empty() && !is_rough(w) : kept_by(w) <= limit; };
+    const int limit = std::max(least_kept(), options_.lower ? 0 : options_.limits.color);
     for (const Way& w : ways_)
-      if (!keeps(w) && w.widths.config.linear_bits == 0)
-        left_out_ = options_.lower ? "with a table " + w.unkept
-                                   : fmt::format("{} classes leave shadows {:.2g} steps off, root mean square, in {}",
-                                                 derived::most_class(w.widths.config), w.widths.class_error.value,
-                                                 plan::text_of(scenes_, w.widths.class_error.at)) +
-                                         fmt::format(", more than --max-color {}", limit);
-    std::erase_if(ways_, [&](const Way& w) { return !keeps(w); });
+      if (kept_by(w) > limit && w.widths.config.linear_bits == 0) left_out_ = left_out_text(w, limit);
+    std::erase_if(ways_, [&](const Way& w) { return kept_by(w) > limit; });
+  }
+  [[nodiscard]] std::string left_out_text(const Way& table, int limit) const {
+    if (options_.lower) return "with a table " + table.unkept;
+    const plan::Most& error = table.widths.class_error;
+    if (std::ceil(error.value) <= limit)
+      return fmt::format("with a table widths are sure to keep --max-color {} alone", table.widths.color_limit);
+    return fmt::format("{} classes leave shadows {:.2g} steps off, root mean square, in {}, more than --max-color {}",
+                       derived::most_class(table.widths.config), error.value, plan::text_of(scenes_, error.at), limit);
   }
 
   /// ACTIVE changes no pixel and no other parameter, so the chosen core gets as much as its frames ask for. The cores

@@ -286,16 +286,17 @@ class Maker {
                             counted(static_cast<int>(way_.lights.value), "light"), b.max));
     set(&Config::smooth, 1, "light after light takes a fraction of colour, and no core has fewer for it");
     const auto figure = [&](int bits, int frac) { return told_apart(off(bits, frac), out_.color_limit, 2).value; };
-    int bits = kLeastLinearBits;
+    const int least = least_linear_bits();
+    int bits = least;
     while (bits < b.max && !keeps(bits, c.max)) ++bits;
     set(&Config::linear_bits, bits,
         fmt::format("{} of {} on a line, {}: where it is dark, {} bits are off by {}{}",
                     counted(static_cast<int>(way_.lights.value), "light"),
                     counted(static_cast<int>(way_.lit_samples.value), "sample"), at(way_.lit_samples), bits,
                     steps_text(figure(bits, c.max)),
-                    bits == kLeastLinearBits ? ""
-                                             : fmt::format(", {} by {}, more than --max-color {}", bits - 1,
-                                                           figure(bits - 1, c.max), out_.color_limit)));
+                    bits == least ? ""
+                                  : fmt::format(", {} by {}, more than --max-color {}", bits - 1,
+                                                figure(bits - 1, c.max), out_.color_limit)));
     const int floor = std::max(0, bits + out_.config.count_bits - 8);
     int frac = floor;
     while (frac < c.max && !keeps(bits, frac)) ++frac;
@@ -382,6 +383,8 @@ class Maker {
 };
 
 }  // namespace
+
+int least_linear_bits() { return std::countr_zero(info_of(&Config::linear_bits).allowed >> 1) + 1; }
 
 int position_step(int least) {
   for (const int step : {8, 11, 12, 15})

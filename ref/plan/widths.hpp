@@ -25,7 +25,7 @@ int width_step(int least);
 int class_step(int least);
 
 /// The least LINEAR_BITS that is not 0.
-inline constexpr int kLeastLinearBits = 10;
+int least_linear_bits();
 
 /// Bound of a stored depth's error in steps of Z_BITS bits, after `pixels` pixels of a span, in a picture of this size.
 /// It is the sum of these:

@@ -70,7 +70,7 @@ int class_bits_step(int v) { return v > 1 ? plan::class_step(v) : v; }
 std::vector<Width> widths_of(const Config& c, bool classes = true) {
   std::vector<Width> list{{&Config::z_bits, 4, plan::four_step}, {&Config::z_frac, 0, fraction_step}};
   if (c.smooth > 0) list.push_back({&Config::color_frac, 0, plan::four_step});
-  if (c.linear_bits > 0) list.push_back({&Config::linear_bits, plan::kLeastLinearBits, any_step});
+  if (c.linear_bits > 0) list.push_back({&Config::linear_bits, plan::least_linear_bits(), any_step});
   if (c.dsf_bits > 0 && c.linear_bits == 0) list.push_back({&Config::shade_frac, 1, shade_step});
   // With one bit there is no table, which several lights need.
   if (c.class_bits > 1 && classes) list.push_back({&Config::class_bits, 2, class_bits_step});
