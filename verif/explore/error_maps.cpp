@@ -95,7 +95,7 @@ void ErrorMaps::frame(int index, const std::filesystem::path& picture, TempFiles
       all.gross_wrong, path.string());
   const std::string finest = samples_text(scene_->light_samples(index, scene_->finest(point_)));
   text_ += told.empty() ? "  no source has an error of its own\n"
-                        : fmt::format("  each source alone against the finest picture{}, face/shadow/colour: {}: {}\n",
+                        : fmt::format("  each source alone against finest pictures{}, face/shadow/colour: {}: {}\n",
                                       finest, fmt::join(told, ", "), beside(picture, "_SOURCE").string());
   if (light.pixels > 0) {
     const auto figure = [&](const char* name) { return j["light"][name].get<double>(); };

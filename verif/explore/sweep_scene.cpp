@@ -170,7 +170,7 @@ RayPixel ray_pixel(const RayFrame& f, int x, int y, bool lights) {
 
 std::string_view name_of(ErrorSource source) {
   constexpr std::array<std::string_view, kErrorSources.size()> kNames{"snapping", "depth",   "color", "shading",
-                                                                      "samples",  "classes", "order"};
+                                                                      "samples",  "classes", "law",   "order"};
   return kNames[static_cast<std::size_t>(source)];
 }
 
@@ -231,12 +231,16 @@ DrawOptions SweepScene::draw_options(const SweepPoint& point) const {
   return draw;
 }
 
-SweepPoint SweepScene::finest(const SweepPoint& point) const {
+namespace {
+
+/// The point with everything at its finest, light after light or by a table. A table has no room for more than 8
+/// lights.
+SweepPoint finest_by(plan::Features features, const SweepPoint& point, bool linear) {
   SweepPoint out = point;
-  plan::Features features = data_->features;
   features.needs.width = point.width;
   // Parity is right for any caster.
-  out.config = plan::finest(features, {.dsf_bits = features.needs.shadows ? 1 : 0}, 0);
+  const int dsf_bits = features.needs.shadows ? 1 : 0;
+  out.config = plan::finest(features, {.dsf_bits = dsf_bits, .linear = linear}, 0);
   out.config.z_bits = kGreatest.z_bits;
   out.config.channels = kGreatest.channels;  // a grey scene has a background of another colour
   if (out.config.dsf_bits > 0) {
@@ -251,8 +255,22 @@ SweepPoint SweepScene::finest(const SweepPoint& point) const {
   return out;
 }
 
+/// The finest picture has one pattern of samples.
+SweepPoint one_pattern(SweepPoint p) {
+  p.look.seed = 1;
+  return p;
+}
+
+}  // namespace
+
+SweepPoint SweepScene::finest(const SweepPoint& point) const { return finest_by(data_->features, point, true); }
+
+SweepPoint SweepScene::finest_of_law(const SweepPoint& point) const {
+  return finest_by(data_->features, point, point.config.linear_bits > 0);
+}
+
 SweepPoint SweepScene::alone(const SweepPoint& point, ErrorSource source) const {
-  SweepPoint out = finest(point);
+  SweepPoint out = finest_of_law(point);
   Config& c = out.config;
   const Config& of = point.config;
   switch (source) {
@@ -284,9 +302,12 @@ SweepPoint SweepScene::alone(const SweepPoint& point, ErrorSource source) const 
       out.look.seed = point.look.seed;
       break;
     case ErrorSource::classes:
-      if (c.dsf_bits == 0) break;
+      if (c.dsf_bits == 0 || c.linear_bits > 0) break;
       c.class_bits = of.class_bits;
       out.look.classes = point.look.classes;
+      break;
+    case ErrorSource::law:
+      if (c.linear_bits > 0 && of.linear_bits > 0) c.linear_bits = of.linear_bits;
       break;
     case ErrorSource::order:
       c.translucency = std::min(c.translucency, of.translucency);
@@ -306,7 +327,7 @@ std::vector<int> SweepScene::light_samples(int index, const SweepPoint& point) c
 }
 
 std::shared_ptr<const ScreenTruth> SweepScene::truth(int index, const SweepPoint& point, int sub_bits) {
-  SweepPoint p = finest(point);
+  SweepPoint p = finest_of_law(point);
   p.look.sub_bits = sub_bits;
   p.look.translucent = TranslucentWay::submission;  // layers change no answer, and their order takes long
   p.look.samples = samples_of(point);
@@ -318,13 +339,15 @@ std::shared_ptr<const ScreenTruth> SweepScene::truth(int index, const SweepPoint
   });
 }
 
-std::shared_ptr<const DrawnFrame> SweepScene::finest_picture(int index, const SweepPoint& point) {
-  SweepPoint p = finest(point);
-  p.look.seed = 1;  // the truth has one pattern
-  return data_->pictures.get(fmt::format("{} {}", index, text_of(p)), [&] {
+std::shared_ptr<const DrawnFrame> SweepScene::kept_picture(int index, const SweepPoint& point) {
+  return data_->pictures.get(fmt::format("{} {}", index, text_of(point)), [&] {
     data_->step();
-    return draw(frame(index), p.config, draw_options(p));
+    return draw(frame(index), point.config, draw_options(point));
   });
+}
+
+std::shared_ptr<const DrawnFrame> SweepScene::finest_picture(int index, const SweepPoint& point) {
+  return kept_picture(index, one_pattern(finest(point)));
 }
 
 std::shared_ptr<const LightTruth> SweepScene::light(int index, const SweepPoint& point) {
@@ -393,22 +416,15 @@ std::shared_ptr<const std::vector<RayPixel>> SweepScene::rays(int index, const S
   });
 }
 
-namespace {
-
-/// A point as its error by a source is measured: the finest picture has one pattern of samples.
-SweepPoint alone_in(const SweepScene& scene, const SweepPoint& point, ErrorSource source) {
-  SweepPoint p = scene.alone(point, source);
-  if (source != ErrorSource::samples) p.look.seed = 1;
-  return p;
+SweepPoint SweepScene::alone_in_one_pattern(const SweepPoint& point, ErrorSource source) const {
+  const SweepPoint p = alone(point, source);
+  return source == ErrorSource::samples ? p : one_pattern(p);
 }
 
-}  // namespace
-
 ErrorMap SweepScene::map_of(int index, const SweepPoint& point, ErrorSource source) {
-  const SweepPoint p = alone_in(*this, point, source);
-  const auto expected = finest_picture(index, point);
-  SweepPoint best = finest(point);
-  best.look.seed = 1;
+  const SweepPoint p = alone_in_one_pattern(point, source);
+  const SweepPoint best = one_pattern(source == ErrorSource::law ? finest(point) : finest_of_law(point));
+  const auto expected = kept_picture(index, best);
   if (text_of(p) == text_of(best))
     return {.width = p.width, .height = p.height, .pixels = std::vector<PixelError>(expected->face.size())};
   data_->step();
@@ -417,7 +433,8 @@ ErrorMap SweepScene::map_of(int index, const SweepPoint& point, ErrorSource sour
 }
 
 std::shared_ptr<const PictureError> SweepScene::error_of(int index, const SweepPoint& point, ErrorSource source) {
-  return data_->errors.get(fmt::format("{} {}", index, text_of(alone_in(*this, point, source))),
+  const std::string_view against = source == ErrorSource::law ? "law" : "of law";
+  return data_->errors.get(fmt::format("{} {} {}", index, against, text_of(alone_in_one_pattern(point, source))),
                            [&] { return sum_of(map_of(index, point, source)); });
 }
 

@@ -21,11 +21,12 @@
 
 namespace kage::explore {
 
-/// Sources of a picture's error.
-enum class ErrorSource : std::uint8_t { snapping, depth, color, shading, samples, classes, order };
+/// Sources of a picture's error. The law is that of a light table, which takes shares of a colour that is made for the
+/// display, in place of adding light after light.
+enum class ErrorSource : std::uint8_t { snapping, depth, color, shading, samples, classes, law, order };
 inline constexpr std::array kErrorSources{ErrorSource::snapping, ErrorSource::depth,   ErrorSource::color,
                                           ErrorSource::shading,  ErrorSource::samples, ErrorSource::classes,
-                                          ErrorSource::order};
+                                          ErrorSource::law,      ErrorSource::order};
 std::string_view name_of(ErrorSource source);
 
 /// Answers of exact rays through the unsnapped scene at a pixel.
@@ -77,9 +78,12 @@ class SweepScene {
   [[nodiscard]] const Needs& needs() const;
   [[nodiscard]] DrawOptions draw_options(const SweepPoint& point) const;
 
-  /// The point with everything that changes a picture at its finest: 8 bits of snapped positions, the widest depth,
-  /// colour and shares, the most samples and classes, exact order.
+  /// The point with everything that changes a picture at its finest: 8 bits of snapped positions, the widest depth and
+  /// colour, the most samples, shadows light after light, exact order.
   [[nodiscard]] SweepPoint finest(const SweepPoint& point) const;
+  /// That by the point's own law: with the most classes and the widest shares of a table where the point has no
+  /// LINEAR_BITS. All sources but the law itself are held against it, for their parameters are those of one law.
+  [[nodiscard]] SweepPoint finest_of_law(const SweepPoint& point) const;
   /// That, but for one source, which is as the point has it.
   [[nodiscard]] SweepPoint alone(const SweepPoint& point, ErrorSource source) const;
   /// How many samples each light of a frame has.
@@ -95,7 +99,8 @@ class SweepScene {
   /// It is the same for all looks: each area light is 255 samples, worked out one by one. Background is left out, and
   /// so are pixels with something translucent before them.
   std::shared_ptr<const LightTruth> light(int index, const SweepPoint& point);
-  /// Errors of the picture of alone(point, source) against the finest one. The map is not kept.
+  /// Errors of the picture of alone(point, source) against the finest one of the point's law, the law's own against the
+  /// finest of all. The map is not kept.
   ErrorMap map_of(int index, const SweepPoint& point, ErrorSource source);
   /// The sums over that, kept.
   std::shared_ptr<const PictureError> error_of(int index, const SweepPoint& point, ErrorSource source);
@@ -104,6 +109,9 @@ class SweepScene {
   void forget(int index);
 
  private:
+  std::shared_ptr<const DrawnFrame> kept_picture(int index, const SweepPoint& point);
+  [[nodiscard]] SweepPoint alone_in_one_pattern(const SweepPoint& point, ErrorSource source) const;
+
   struct Data;
   std::unique_ptr<Data> data_;
 };

@@ -35,7 +35,7 @@ python3 - <<'PY' || fail "maps and the row differ"
 import json, re
 j, row = json.load(open("coarse.json")), json.load(open("sweep.json"))[1]["accuracy"]
 errors, said = j["errors"], open("line").read().splitlines()
-lines, alone = ([l for l in said if l.startswith(begin)] for begin in ("frame ", "  each source alone against the finest picture, "))
+lines, alone = ([l for l in said if l.startswith(begin)] for begin in ("frame ", "  each source alone against finest pictures, "))
 assert len(errors) == len(lines) == len(alone) == 2
 for key in "pixels", "visible_wrong", "shadow_wrong", "gross_wrong", "color_wrong":
     assert sum(e[key] for e in errors) == row[key], key
@@ -99,7 +99,7 @@ cmp exr/courtyard_0000_error.png <(cat again/courtyard_0000_error.png) || fail "
 # Soft shadows, layers and lights: each source where it is.
 expect 0 "$kage" render penumbra --size 96x72 --frames 1 --samples 3 --error-map --out soft --json soft.json
 grep -qE 'wrong shadow [0-9]+ \(of 3 samples a light\), ' stdout || fail "$(cat stdout)"
-grep -qF 'alone against the finest picture (of 255 samples a light), face/shadow/colour: ' stdout || fail "$(cat stdout)"
+grep -qF 'alone against finest pictures (of 255 samples a light), face/shadow/colour: ' stdout || fail "$(cat stdout)"
 json soft.json 'j["errors"][0]["sources"]["samples"]["shadow_wrong"] > 0 and j["errors"][0]["gross_wrong"] == 0'
 expect 0 "$kage" render glass --size 96x72 --frames 1 --order submission --error-map --out glass --json glass.json
 json glass.json 'j["errors"][0]["sources"]["order"]["color_wrong"] > 0 and j["errors"][0]["sources"]["order"]["visible_wrong"] == 0'

@@ -162,29 +162,60 @@ TEST_CASE("rays tell an order of layers that is wrong") {
 }
 
 TEST_CASE("the error of a point that differs from the finest in one source is that source's alone") {
-  for (const char* name : {"courtyard", "penumbra", "glass"}) {
+  using Case = std::pair<std::string, std::string>;
+  for (const auto& [name, linear_bits] :
+       {Case{"courtyard", "0"}, Case{"courtyard", "10"}, Case{"penumbra", "0"}, Case{"glass", "0"}}) {
     Swept s(name);
-    SweepPoint coarse = s.base;
-    coarse = with(with(with(coarse, "SUB_BITS", "4"), "Z_BITS", "9"), "SHADE_FRAC", "3");
+    const bool linear = linear_bits != "0";
+    SweepPoint coarse = linear ? with(s.base, "LINEAR_BITS", linear_bits) : s.base;
+    coarse = with(with(coarse, "SUB_BITS", "4"), "Z_BITS", "9");
+    coarse = linear ? with(coarse, "CHANNELS", "1") : with(coarse, "SHADE_FRAC", "3");
     if (samples_of(coarse) > 1) coarse = with(coarse, "SAMPLES", "3");
     coarse = with(coarse, "ORDER", "submission");
+    const auto law = s.scene->error_of(0, coarse, ErrorSource::law);
     for (const ErrorSource source : kErrorSources) {
       const SweepPoint one = s.scene->alone(coarse, source);
-      CAPTURE(name, name_of(source));
-      const PointAccuracy a = s.accuracy(one, s.drawn(one));
+      CAPTURE(name, linear_bits, name_of(source));
+      const bool by_law = source == ErrorSource::law;
+      const SweepPoint best = by_law ? s.scene->finest(coarse) : s.scene->finest_of_law(coarse);
+      const PictureError all = sum_of(against_picture(s.drawn(best), s.scene->light_samples(0, best), s.drawn(one),
+                                                      s.scene->light_samples(0, one)));
       for (const ErrorSource other : kErrorSources) {
         const auto e = s.scene->error_of(0, one, other);
-        CHECK(e->squares == (other == source ? a.all.squares : 0));
-        CHECK(e->visible_wrong == (other == source ? a.all.visible_wrong : 0));
-        CHECK(e->shadow == (other == source ? a.all.shadow : 0));
+        // A table has the error of its law, whatever else it has.
+        const bool has = other == source;
+        const bool of_table = other == ErrorSource::law && !linear;
+        CHECK(e->squares == (has ? all.squares : of_table ? law->squares : 0));
+        CHECK(e->visible_wrong == (has ? all.visible_wrong : 0));
+        CHECK(e->shadow == (has ? all.shadow : 0));
       }
     }
     // Each of these shows, where the scene has what it is about.
     CHECK(s.scene->error_of(0, coarse, ErrorSource::snapping)->visible_wrong > 0);
     CHECK(s.scene->error_of(0, coarse, ErrorSource::color)->squares > 0);
-    CHECK((s.scene->error_of(0, coarse, ErrorSource::samples)->shadow > 0) == (std::string(name) == "penumbra"));
-    CHECK((s.scene->error_of(0, coarse, ErrorSource::order)->squares > 0) == (std::string(name) == "glass"));
+    CHECK((s.scene->error_of(0, coarse, ErrorSource::samples)->shadow > 0) == (name == "penumbra"));
+    CHECK((s.scene->error_of(0, coarse, ErrorSource::order)->squares > 0) == (name == "glass"));
+    CHECK((law->squares > 0) == (s.base.config.dsf_bits > 0));
   }
+}
+
+TEST_CASE("the finest picture adds light after light, and a table's law is a source of error") {
+  Swept s("three-lights");
+  REQUIRE(derived::has_table(s.base.config));
+  const PointAccuracy table = s.accuracy(s.base, s.drawn(s.base));
+  const SweepPoint linear = with(s.base, "LINEAR_BITS", "12");
+  const PointAccuracy added = s.accuracy(linear, s.drawn(linear));
+  CHECK(s.scene->finest(s.base).config.linear_bits == kGreatest.linear_bits);
+  CHECK(text_of(s.scene->finest(s.base)) == text_of(s.scene->finest(linear)));
+  CHECK(table.finest_light.squares == added.finest_light.squares);
+  CHECK(added.light.squares < table.light.squares / 3);
+  CHECK(added.all.squares < table.all.squares / 4);
+  const auto of_table = s.scene->error_of(0, s.base, ErrorSource::law);
+  const auto of_added = s.scene->error_of(0, linear, ErrorSource::law);
+  CHECK(of_added->squares < of_table->squares / 10);
+  // Most of a good table's error is its law.
+  CHECK(of_table->squares > table.all.squares / 2);
+  CHECK(s.scene->error_of(0, linear, ErrorSource::classes)->squares == 0);
 }
 
 TEST_CASE("one share for all shadows is an error by classes, and a table takes most of it away") {
