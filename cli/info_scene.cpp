@@ -74,7 +74,7 @@ Json contents_of(const Scene& scene, const SceneFrame& frame) {
 
 /// Which named configurations draw it, what the others lack, and what is told of the pictures.
 void add_configurations(const Options& o, const Scene& scene, const SceneFrame& frame, Json& j) {
-  const Needs needs = needs_of(scene, frame, o.size.width, o.size.height, o.samples);
+  const Needs needs = needs_of_frames(scene, scene.frame_count(), o.size.width, o.size.height, o.samples);
   j["size"] = {o.size.width, o.size.height};
   j["light"] = {{"share_error", needs.share_error}, {"color_spread", needs.color_spread}};
   j["configurations"] = Json::array();

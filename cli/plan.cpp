@@ -230,7 +230,7 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
   for (const PlanCandidate& c : plan.others)
     text += fmt::format("# instead, {} ({}): {}\n", c.way, shape_text(c.config), cost_text(plan, c.config, c.cost));
   if (o.plan.prefer == Prefer::speed) text += speed_text(plan);
-  return text + to_yaml(plan);
+  return wrapped_comments(text + to_yaml(plan));
 }
 
 Json place_json(const PlanPlace& at) {

@@ -3,6 +3,8 @@
 // Phrases for lines that a person reads.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -14,6 +16,27 @@ namespace kage::cli {
 /// ", 3 segments" for a line that tells spans; nothing where there are none, as in a core without units.
 inline std::string and_segments(std::uint64_t segments) {
   return segments == 0 ? std::string() : ", " + counted(segments, "segment");
+}
+
+/// Breaks lines of more than `width` characters at blanks. What follows stands in lines of their own, as comments that
+/// are set in below the line's own comment, so that YAML stays what it is. Lines without a comment stay whole.
+inline std::string wrapped_comments(const std::string& text, std::size_t width = 120) {
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    std::string line = text.substr(at, end - at);
+    at = end + 1;
+    const std::size_t comment = line.find('#');
+    const std::string begin(comment == std::string::npos ? 0 : comment, ' ');
+    while (comment != std::string::npos && line.size() > width) {
+      const std::size_t blank = line.rfind(' ', width);
+      if (blank == std::string::npos || blank <= comment + 3) break;  // one long word
+      out += line.substr(0, blank) + "\n";
+      line = begin + "#   " + line.substr(blank + 1);
+    }
+    out += line + "\n";
+  }
+  return out;
 }
 
 }  // namespace kage::cli

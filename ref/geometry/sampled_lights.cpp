@@ -14,10 +14,10 @@ namespace {
 std::vector<LightPoint> points_of(const Light& light, std::size_t number, bool casts, const Config& config,
                                   const Look& look) {
   const LightPoint& middle = light;
-  if (!casts || config.count_bits == 0) return {middle};
-  const bool fits = !look.fit || look.samples >> config.count_bits == 0;
+  if (casts && config.count_bits == 0) return {middle};
+  const bool fits = !casts || !look.fit || look.samples >> config.count_bits == 0;
   auto points = light_points(light, fits ? look.samples : 1, look.seed + number);
-  if (points.size() >> config.count_bits > 0)
+  if (casts && points.size() >> config.count_bits > 0)
     throw Error(fmt::format("{} samples of a light do not fit COUNT_BITS = {}", points.size(), config.count_bits));
   return points;
 }

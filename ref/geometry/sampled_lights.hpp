@@ -12,9 +12,8 @@
 
 namespace kage {
 
-/// All lights shine, the first ones cast shadows: as many as the configuration tells apart, all with linear light, none
-/// without shadows. A
-/// light that casts is its samples, another its middle.
+/// All lights shine from their samples, the first ones cast shadows, too: as many as the configuration tells apart, all
+/// with linear light, none without shadows. A light that casts and has no counter is its middle.
 struct SampledLights {
   /// Throws Error where a light has more samples than COUNT_BITS holds.
   /// `near_corners`: View::near_corners(), past which shadows reach.

@@ -51,7 +51,7 @@ std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs, con
   std::map<ShadowWay, std::vector<ChoiceCost>> ways;
   std::vector<std::pair<ShadowWay, std::size_t>> order;
   for (const NamedConfig& n : in_question(needs)) {
-    const ShadowWay way(needs.shadows ? n.config.dsf_bits : 0, n.config.linear_bits > 0);
+    const ShadowWay way(n.config.dsf_bits, n.config.linear_bits > 0);
     order.emplace_back(way, ways[way].size());
     ways[way].push_back({n, 0, estimated_cells(n.config).luts, approximates(n.config, needs)});
   }
@@ -87,7 +87,7 @@ std::vector<ChoiceCost> choices(const SceneFrame& first, const Needs& needs, con
 NamedConfig choose_config(const Scene& scene, const DrawOptions& draw) {
   const int frames = draw.frames > 0 ? draw.frames : scene.frame_count();
   const SceneFrame first = scene.frame(0, frames);
-  const Needs needs = needs_of(scene, first, draw.width, draw.height, draw.look.samples);
+  const Needs needs = needs_of_frames(scene, frames, draw.width, draw.height, draw.look.samples);
   std::vector<ChoiceCost> all = choices(first, needs, draw);
   if (all.empty()) return choose_config(needs);
   const auto rough = [](const ChoiceCost& c) { return !c.rough.empty(); };

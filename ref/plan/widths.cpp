@@ -132,7 +132,7 @@ class Maker {
   void shadows() {
     const Needs& needs = features_.needs;
     if (!needs.shadows) {
-      set(&Config::dsf_bits, 0, "nothing opaque casts a shadow");
+      set(&Config::dsf_bits, 0, "no shadow is seen: nothing opaque is there, or a lone convex body");
       set(&Config::fsf, 0, "no shadows");
       set(&Config::count_bits, 0, "no shadows");
       set(&Config::lights, 1, "no shadows");
@@ -233,7 +233,8 @@ class Maker {
                                 because, out_.color_limit));
     }
     set(&Config::channels, features_.needs.color ? 3 : 1,
-        features_.needs.color ? "some colour is not grey; 1 cannot represent the scene" : "all colours are grey");
+        features_.needs.color ? "some colour is not grey; 1 cannot represent the scene"
+                              : "all colours in view are grey");
   }
 
   void color() {
@@ -342,7 +343,8 @@ class Maker {
 
   void rest() {
     set(&Config::translucency, features_.needs.translucency ? 1 : 0,
-        features_.needs.translucency ? "something is translucent; 0 cannot represent the scene" : "all is opaque");
+        features_.needs.translucency ? "something translucent is in view; 0 cannot represent the scene"
+                                     : "all that is in view is opaque");
     if (units_ == nullptr || units_->units.value < 1) {
       set(&Config::units, 0, units_ == nullptr ? "convex bodies go by spans" : "no convex body can go to a unit");
       return;

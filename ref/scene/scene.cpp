@@ -99,6 +99,7 @@ struct Scene::Data {
   scene::WorkingFrame frame;  // of all frames; `bounds` are in it
   scene::Bounds bounds;
   double exposure = 1;
+  std::vector<bool> dark;  // of the file's lights, those that reach nothing in any frame; empty if all may
   double end_time = 0;
   bool smooth = false;
   // Cameras and lights of a program's own scene, frame by frame; if empty, those of `raw`.
@@ -115,6 +116,8 @@ struct Scene::Data {
   [[nodiscard]] std::vector<glm::dvec3> points() const;
   void measure();
   void note_large_places();
+  /// Leaves lights out that reach nothing, but for the first where none reaches anything.
+  void leave_dark_lights_out();
   [[nodiscard]] std::vector<Light> lights(const std::vector<Affine>& world, int index, int count) const;
   [[nodiscard]] const scene::RawCamera* camera(int index, int count) const;
   [[nodiscard]] double time(int index, int count) const {
@@ -275,7 +278,23 @@ std::vector<Light> Scene::Data::lights(const std::vector<Affine>& world, int ind
   std::vector<Light> all;
   for (const scene::RawLight& l : own) all.push_back(scene::file_light(l, world[l.node], frame));
   scene::relative_intensities(all, frame);
+  for (std::size_t i = dark.size(); i-- > 0;)
+    if (dark[i]) all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
   return all;
+}
+
+// A light takes a place in a table, or a pass of each line, whatever it gives. Where something moves, it may come
+// within reach, so all lights stay.
+void Scene::Data::leave_dark_lights_out() {
+  if (!raw.tracks.empty() || light_sets.size() > 1) return;
+  const std::vector<Light> all = lights(scene::pose(raw, time(0, 1), frame), 0, 1);
+  std::vector<bool> found;
+  for (const Light& l : all) found.push_back(!scene::may_reach(l, bounds));
+  if (std::all_of(found.begin(), found.end(), [](bool d) { return d; })) found[0] = false;
+  const auto count = static_cast<std::size_t>(std::count(found.begin(), found.end(), true));
+  if (count == 0) return;
+  dark = std::move(found);
+  notes.push_back(counted(count, "light reaches", "lights reach") + " nothing: left out");
 }
 
 Scene Scene::load(const std::string& name_or_path, const SceneOptions& options) {
@@ -335,6 +354,7 @@ void Scene::Data::build(const std::function<void()>& wait) {
     describe();
     measure();
     exposure = scene::exposure(lights(scene::pose(raw, time(0, 1), frame), 0, 1), bounds);
+    leave_dark_lights_out();
   } catch (const Error& e) {
     throw Error(place + ": " + e.what());
   }

@@ -104,6 +104,20 @@ double exposure(const std::vector<Light>& lights, const Bounds& bounds) {
   return largest > 0 && std::isfinite(1 / largest) ? 1 / largest : 1;
 }
 
+bool may_reach(const Light& light, const Bounds& bounds) {
+  if (light.color == glm::dvec3{0, 0, 0}) return false;
+  if (light.directional) return true;
+  const double radius = 1.001 * (bounds.radius + length(light.axis_u) + length(light.axis_v));
+  const glm::dvec3 out = bounds.center - light.position;
+  const double distance = length(out);
+  if (light.falls_off && light.range > 0 && distance - radius >= light.range) return false;
+  if (!light.spot || distance <= radius) return true;
+  // The ball is seen within this angle from the light.
+  const double half = std::asin(radius / distance);
+  const double off = std::acos(std::clamp(dot(out, light.direction) / distance, -1.0, 1.0));
+  return off - half < std::acos(std::clamp(light.outer_cosine, -1.0, 1.0)) + 0.001;
+}
+
 Light default_light() {
   Light light;
   light.directional = true;

@@ -38,6 +38,10 @@ void relative_intensities(std::vector<Light>& lights, const WorkingFrame& frame)
 /// The factor that intensities are scaled by (Scene::load).
 double exposure(const std::vector<Light>& lights, const Bounds& bounds);
 
+/// Whether a light may shine on anything in the ball: no if it is black, or its range or cone ends before that. A
+/// little further than it does counts, too.
+bool may_reach(const Light& light, const Bounds& bounds);
+
 /// Where the file has no light: directional, oblique, from above, at rest while the orbit turns.
 Light default_light();
 

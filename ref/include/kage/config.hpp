@@ -42,11 +42,11 @@ std::string to_yaml(const Config& config);
 struct Needs {
   int width = 1;                 ///< of the picture, in pixels
   int height = 1;                ///< of the picture, in lines
-  bool shadows = false;          ///< something opaque casts shadows
+  bool shadows = false;          ///< something opaque may cast a shadow that is seen
   bool several_volumes = false;  ///< by parity more than one volume; with DSF_BITS > 1 one may do
   bool smooth = false;           ///< colour varies within a polygon
-  bool color = false;            ///< some colour is not grey
-  bool translucency = false;     ///< something is translucent
+  bool color = false;            ///< some colour in view is not grey
+  bool translucency = false;     ///< something translucent is in view
   int lights = 1;                ///< that cast shadows
   int samples = 1;               ///< of a light, at most
   /// How far colours in shadow are off, in steps of 255, where all shadows take one share (LightDemand).

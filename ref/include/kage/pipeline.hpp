@@ -146,7 +146,8 @@ class StreamFrames : public FrameSource {
   Config config_;
 };
 
-/// Judges what drawing a scene takes, by one of its frames.
+/// Judges what drawing a scene takes, by one of its frames: a pane out of view asks for no translucency, and a lone
+/// convex body seen from outside for no shadows.
 /// @param scene what is drawn
 /// @param frame one of its frames
 /// @param width of the picture, in pixels
@@ -155,8 +156,17 @@ class StreamFrames : public FrameSource {
 /// @return what a configuration must have
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples = Look{}.samples);
 
-/// Chooses among the named configurations by a scene's first frame. It takes the first in listed order that has all the
-/// frame needs, unless a later one costs a tenth less. The cost is the clocks of that frame at 640x480 times the
+/// Judges what drawing frames of a scene takes: figures of light by the first of them, all else by each.
+/// @param scene what is drawn
+/// @param frames how many of it there are
+/// @param width of the picture, in pixels
+/// @param height of the picture, in lines
+/// @param samples of a light that is no point, 1 .. kMaxSamples
+/// @return what a configuration must have
+Needs needs_of_frames(const Scene& scene, int frames, int width, int height, int samples = Look{}.samples);
+
+/// Chooses among the named configurations. It takes the first in listed order that has all the
+/// frames need, unless a later one costs a tenth less. The cost is the clocks of the first frame at 640x480 times the
 /// core's look-up tables, so the size that is asked for only decides which configurations have room for it.
 /// Configurations with UNITS, or with a processor for each pixel, are taken only where no other serves. Throws Error if
 /// none has all; it names the one that lacks the fewest things, and those.

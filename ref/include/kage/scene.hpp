@@ -49,7 +49,7 @@ enum class LightShape : std::uint8_t {
 };
 
 /// A light. Fall-off and cone are those of glTF's KHR_lights_punctual. An area light shines from the points
-/// that stand for it (light_points()), and as if from its middle where it casts no shadow.
+/// that stand for it (light_points()), and from its middle where a configuration has no counter for its shadows.
 struct Light : LightPoint {
   glm::dvec3 color{1, 1, 1};  ///< >= 0, times intensity; a scene's lights are scaled by one factor (Scene::load)
   bool falls_off = false;     ///< not directional: with the square of the distance; `color` is that at distance 1

@@ -185,7 +185,7 @@ void Source::load_scene(const SourceOptions& options) {
         fmt::format("--size: {}x{}: at most {}x{}", options_.size.width, options_.size.height, kMaxSize, kMaxSize));
   const SceneFrame first = scene_->frame(0, frames_);
   notes_ = scene_notes(*scene_, first, options);
-  Needs needs = needs_of(*scene_, first, options.size.width, options.size.height, options.samples);
+  Needs needs = needs_of_frames(*scene_, frames_, options.size.width, options.size.height, options.samples);
   const bool given = options.parameters.has_value();
   if (options.config.empty() && !given) {
     try {

@@ -4,13 +4,26 @@
 # --config depends on nothing but scene and look. Also --config plan and kage model --plan.
 . "$(dirname "$0")/common.bash"
 
+# A plan's lines are of 120 characters at most. The rest of a longer one stands in comments of their own: joined here.
+joined() {
+  [ -z "$(awk 'length($0) > 120' "$1")" ] || fail "longer than 120: $(awk 'length($0) > 120' "$1")"
+  sed -E -i ':a;N;$!ba;s/\n *#   / /g' "$1"
+}
+eval "plain_$(declare -f expect)"
+expect() {
+  plain_expect "$@"
+  [ "$3" != plan ] || joined "$temp/stdout"
+}
+
 # The plan's file is a configuration, and the RTL draws what the golden core draws by it.
-"$kage" plan courtyard --size 64x48 --frames 2 >mine.yaml || fail "no plan"
+"$kage" plan courtyard --size 64x48 --frames 2 >plan.yaml || fail "no plan"
+cp plan.yaml mine.yaml
+joined mine.yaml
 grep -q '^# kage plan courtyard: 2 frames of up to 64x48, --prefer area$' mine.yaml || fail "$(head -1 mine.yaml)"
 [ "$(grep -cE '^[A-Z_]+: [0-9]+ +# .' mine.yaml)" = "$(grep -cE '^[A-Z_]+:' mine.yaml)" ] || fail "a parameter without a reason"
 grep -qE '^Z_FRAC: 8 +# longest span [0-9]+ pixels in frame [01], line [0-9]+: [0-9]+ keep .* of the range, [0-9]+ give ' mine.yaml || fail "$(grep Z_FRAC mine.yaml)"
 grep -q '^# instead, parity' mine.yaml || fail "no other way: $(cat mine.yaml)"
-expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --config mine.yaml --no-report --out out
+expect 0 "$kage" cosim courtyard --size 64x48 --frames 2 --config plan.yaml --no-report --out out
 grep -q '^same: 2 frames' stdout || fail "$(cat stdout)"
 # An inequality's figures show that it is broken, and with which other width.
 grep -qE '^Z_BITS: 24 +# with Z_FRAC 16, 24 keep [0-9.e-]+ of the range, 23 give [0-9.e-]+, more than --max-z [0-9.e-]+$' mine.yaml || fail "$(grep Z_BITS mine.yaml)"
@@ -22,8 +35,8 @@ PY
 
 # Twice the same words; and the same as --config plan, whose model is there by now.
 "$kage" plan courtyard --size 64x48 --frames 2 >again.yaml
-cmp mine.yaml again.yaml || fail "a plan differs from run to run"
-expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config mine.yaml --out a.kage
+cmp plan.yaml again.yaml || fail "a plan differs from run to run"
+expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config plan.yaml --out a.kage
 expect 0 "$kage" stream courtyard --size 64x48 --frames 2 --config plan --out b.kage
 grep -q 'configuration: plan (LANES 1)$' stdout || fail "$(cat stdout)"
 expect 0 "$kage" diff a.kage b.kage
