@@ -18,8 +18,8 @@ inline std::string and_segments(std::uint64_t segments) {
   return segments == 0 ? std::string() : ", " + counted(segments, "segment");
 }
 
-/// Breaks lines of more than `width` characters at blanks. What follows stands in lines of their own, as comments that
-/// are set in below the line's own comment, so that YAML stays what it is. Lines without a comment stay whole.
+/// Breaks lines of more than `width` characters at blanks. The rest stands in comments of their own, set in below the
+/// line's comment, so that YAML stays as it is. Lines without a comment stay whole.
 inline std::string wrapped_comments(const std::string& text, std::size_t width = 120) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {

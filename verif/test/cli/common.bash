@@ -38,6 +38,11 @@ trouble() {
   grep -qF -- "$text" "$temp/stderr" || { fail "$* : the line does not name '$text'"; sed 's/^/    /' "$temp/stderr"; }
 }
 
+# unwrapped FILE: a plan's text, the rest of its longer lines, which stands in comments of their own, put back.
+unwrapped() {
+  sed -E ':a;N;$!ba;s/\n *#   / /g' "$1"
+}
+
 # json FILE EXPRESSION: true in Python, with the file's content as j.
 json() {
   python3 -c "import json,sys; j=json.load(open(sys.argv[1])); sys.exit(0 if ($2) else 1)" "$1" || { fail "$1: not so: $2"; head -c 600 "$1"; }

@@ -103,8 +103,9 @@ json json/plan.host.json 'j["config"]["ACTIVE"]==0 and j["polygon_words"] is Non
 expect 0 "$kage" plan courtyard "${small[@]}"
 cmp stdout host.yaml || fail "--front-end host is not what there is without it"
 cells='[0-9]* LUTs (within [0-9]* %), [0-9]* flip-flops, [0-9]* bits of RAM'
-grep -v '^ACTIVE:' host.yaml | sed "s/$cells/cells/" >without
-grep -vE '^ACTIVE:|^# at the polygon level |^# words and clocks are those with spans from the host; cells and RAM are with the front end$' small.yaml |
+unwrapped host.yaml | grep -v '^ACTIVE:' | sed "s/$cells/cells/" >without
+unwrapped small.yaml |
+  grep -vE '^ACTIVE:|^# at the polygon level |^# words and clocks are those with spans from the host; cells and RAM are with the front end$' |
   sed "s/$cells/cells/" | cmp - without || fail "a front end changes more than ACTIVE and cells"
 [ "$(grep -c '^# words and clocks are those with spans from the host' small.yaml)" = 1 ] || fail "not said what the costs are of: $(cat small.yaml)"
 # Each way that was costed has its cells with a front end, as kage area estimates those of the chosen one.

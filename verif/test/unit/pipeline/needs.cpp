@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What frames ask of a configuration: nothing that no pixel shows. Judged by pictures with and without it, over random
+// Frames ask a configuration for nothing that no pixel shows. Judged by pictures with and without it, over random
 // scenes and eyes; and lights that reach nothing, by their own formula.
 #include <algorithm>
 #include <cmath>

@@ -218,7 +218,7 @@ TEST_CASE("lights: all of them, with cone, fall-off and shape, and one factor fo
   CHECK_FALSE(test::has_note(sun, "light"));
 
   const Scene both = with(
-      R"({"type": "spot", "intensity": 3, "range": 20, "spot": {"innerConeAngle": 0.25, "outerConeAngle": 0.5}},
+      R"({"type": "spot", "intensity": 3, "range": 20, "spot": {"innerConeAngle": 0.25, "outerConeAngle": 1.25}},
          {"type": "point", "intensity": 1, "extras": {"kage": {"shape": "disc", "radius": 0.5}}})",
       two);
   const SceneFrame f = both.frame(0, 1);
@@ -227,7 +227,7 @@ TEST_CASE("lights: all of them, with cone, fall-off and shape, and one factor fo
   CHECK(f.lights[0].falls_off);
   CHECK(f.lights[0].range == 20);
   CHECK(f.lights[0].inner_cosine == Approx(std::cos(0.25)).epsilon(1e-14));
-  CHECK(f.lights[0].outer_cosine == Approx(std::cos(0.5)).epsilon(1e-14));
+  CHECK(f.lights[0].outer_cosine == Approx(std::cos(1.25)).epsilon(1e-14));
   CHECK(f.lights[0].position == glm::dvec3{1, 2, 3});
   CHECK(distance(f.lights[0].direction, {0, -1, 0}) < 1e-15);
   CHECK(f.lights[0].color.x == Approx(3 * f.lights[1].color.x).epsilon(1e-14));
