@@ -29,8 +29,10 @@ inline std::string wrapped_comments(const std::string& text, std::size_t width =
     const std::size_t comment = line.find('#');
     const std::string begin(comment == std::string::npos ? 0 : comment, ' ');
     while (comment != std::string::npos && line.size() > width) {
-      const std::size_t blank = line.rfind(' ', width);
-      if (blank == std::string::npos || blank <= comment + 3) break;  // one long word
+      std::size_t blank = line.rfind(' ', width);
+      // A long word stands in a line of its own.
+      if (blank == std::string::npos || blank <= comment + 4) blank = line.find(' ', comment + 5);
+      if (blank == std::string::npos) break;
       out += line.substr(0, blank) + "\n";
       line = begin + "#   " + line.substr(blank + 1);
     }

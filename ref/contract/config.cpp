@@ -221,7 +221,8 @@ std::vector<std::string> lacks(const Config& config, const Needs& needs) {
                           ? fmt::format("shadows of {} lights (LINEAR_BITS; a table has LIGHTS {} at most)",
                                         needs.lights, most_lights())
                           : fmt::format("shadows of several lights (LIGHTS >= {})", needs.lights));
-  if (needs.shadows && needs.samples > 1 && needs.samples >> config.count_bits != 0)
+  // Without shadows a light shines from its samples, whatever a counter holds.
+  if (config.dsf_bits > 0 && needs.samples > 1 && needs.samples >> config.count_bits != 0)
     missing.push_back(
         fmt::format("soft shadows (COUNT_BITS >= {})", std::bit_width(static_cast<unsigned>(needs.samples))));
   if (needs.smooth && config.smooth == 0) missing.emplace_back("smooth colour (SMOOTH)");

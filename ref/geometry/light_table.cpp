@@ -106,7 +106,7 @@ void LightTable::add_sides(bool inner, WeightedVectors& all, std::vector<Member>
         std::any_of(samples.begin(), samples.end(), [&](const ShadowCaster& c) { return !c.light_outside(boxes[p]); });
     for (std::uint32_t i = part.first_polygon; i < part.first_polygon + part.polygon_count; ++i) {
       const Triangle& t = frame_->triangles[frame_->polygons[i].triangle];
-      if (t.unlit || (t.alpha < 255 && config_->translucency > 0)) continue;
+      if (t.unlit || t.alpha < 255) continue;  // one that is drawn opaque all the same has the nearest class
       FaceSide side(*frame_, *lights_, i, 1);
       for (const int eye_side : {1, -1}) {
         side.eye_side = eye_side;

@@ -29,8 +29,8 @@ bool for_anybody(const Config& c, const Needs& needs) {
 
 /// Whether it counts light samples that the scene has not. A table of one light needs a counter of one.
 bool counts_in_vain(const Config& c, const Needs& needs) {
-  const bool hard = needs.samples == 1 && needs.lights == 1;
-  return c.count_bits > (hard && needs.light_table() ? 1 : 0) && (!needs.shadows || hard);
+  const bool hard = needs.samples == 1 && (needs.lights == 1 || !needs.shadows);
+  return hard && c.count_bits > (needs.light_table() ? 1 : 0);
 }
 
 /// The named configurations that come into question, in listed order.

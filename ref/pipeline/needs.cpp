@@ -57,29 +57,44 @@ class Seen {
   int height_;
 };
 
-/// Needs that depend on where the eye is.
-struct SeenNeeds {
+/// Needs that may differ from frame to frame.
+struct FrameNeeds {
   bool shadows = false;
   bool several_volumes = false;
   bool color = false;
   bool translucency = false;
+  bool soft = false;
+  int lights = 1;
 
-  SeenNeeds& operator|=(const SeenNeeds& o) {
+  FrameNeeds& operator|=(const FrameNeeds& o) {
     shadows = shadows || o.shadows;
     several_volumes = several_volumes || o.several_volumes;
     color = color || o.color;
     translucency = translucency || o.translucency;
+    soft = soft || o.soft;
+    lights = std::max(lights, o.lights);
     return *this;
   }
-  bool operator==(const SeenNeeds&) const = default;
 };
 
-SeenNeeds seen_needs(const SceneFrame& frame, const Seen* seen) {
-  SeenNeeds needs;
-  needs.color = std::any_of(frame.lights.begin(), frame.lights.end(), [](const Light& l) { return !is_grey(l.color); });
+/// Whether --cull would show inner sides of a closed body: it is inside out, and has one side.
+bool shows_inside(const SceneFrame& frame, const Component& c) {
+  for (std::uint32_t t = c.first; t < c.first + c.count; ++t)
+    if (frame.triangles[t].sides == Sides::back) return true;
+  return false;
+}
+
+FrameNeeds frame_needs(const SceneFrame& frame, int width, int height) {
+  const Seen seen(frame, width, height);
+  FrameNeeds needs;
+  needs.lights = static_cast<int>(frame.lights.size());
+  for (const Light& l : frame.lights) {
+    needs.color = needs.color || !is_grey(l.color);
+    needs.soft = needs.soft || l.shape != LightShape::point;
+  }
   std::vector<const Component*> casters;
   for (const Component& c : frame.components) {
-    const bool in_view = seen == nullptr || seen->component(c);
+    const bool in_view = seen.component(c);
     if (c.translucent)
       needs.translucency = needs.translucency || in_view;
     else
@@ -91,52 +106,48 @@ SeenNeeds seen_needs(const SceneFrame& frame, const Seen* seen) {
   needs.several_volumes =
       casters.size() > 1 || std::any_of(casters.begin(), casters.end(), [](const auto* c) { return !c->convex; });
   // From outside, a lone convex body hides no light that arrives at a face of it.
-  const bool alone = !needs.several_volumes && seen != nullptr;
-  needs.shadows = !casters.empty() && !(alone && seen->from_outside(*casters[0]));
+  const bool none = casters.empty() ||
+                    (!needs.several_volumes && seen.from_outside(*casters[0]) && !shows_inside(frame, *casters[0]));
+  needs.shadows = !none;
+  return needs;
+}
+
+Needs needs_by(const Scene& scene, const SceneFrame& first, const FrameNeeds& of, int width, int height, int samples) {
+  Needs needs;
+  needs.width = width;
+  needs.height = height;
+  needs.shadows = of.shadows;
+  needs.several_volumes = of.several_volumes;
+  needs.color = of.color;
+  needs.translucency = of.translucency;
+  needs.smooth = scene.needs_smooth();
+  needs.lights = of.lights;
+  if (of.soft) needs.samples = samples;
+  Config counted;
+  counted.count_bits = kGreatest.count_bits;
+  Look look;
+  look.samples = samples;
+  const LightDemand light = light_demand(first, counted, look);
+  if (needs.shadows) needs.share_error = light.share_error;
+  needs.color_spread = light.color_spread;
   return needs;
 }
 
 }  // namespace
 
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples) {
-  Needs needs;
-  needs.width = width;
-  needs.height = height;
-  const Seen seen(frame, width, height);
-  const SeenNeeds of_seen = seen_needs(frame, &seen);
-  needs.shadows = of_seen.shadows;
-  needs.several_volumes = of_seen.several_volumes;
-  needs.color = of_seen.color;
-  needs.translucency = of_seen.translucency;
-  needs.smooth = scene.needs_smooth();
-  needs.lights = static_cast<int>(frame.lights.size());
-  const auto soft = [](const Light& l) { return l.shape != LightShape::point; };
-  if (std::any_of(frame.lights.begin(), frame.lights.end(), soft)) needs.samples = samples;
-  Config counted;
-  counted.count_bits = kGreatest.count_bits;
-  Look look;
-  look.samples = samples;
-  const LightDemand light = light_demand(frame, counted, look);
-  needs.share_error = light.share_error;
-  needs.color_spread = light.color_spread;
-  return needs;
+  return needs_by(scene, frame, frame_needs(frame, width, height), width, height, samples);
 }
 
-Needs needs_of_frames(const Scene& scene, int frames, int width, int height, int samples) {
+Needs needs_of_frames(const Scene& scene, int frames, int width, int height, int samples,
+                      const std::function<void()>& step) {
   const SceneFrame first = scene.frame(0, frames);
-  Needs needs = needs_of(scene, first, width, height, samples);
-  SeenNeeds all{needs.shadows, needs.several_volumes, needs.color, needs.translucency};
-  // Where the first frame has all that the scene could ask for, others have no more.
-  for (int i = 1; i < frames && all != seen_needs(first, nullptr); ++i) {
-    const SceneFrame frame = scene.frame(i, frames);
-    const Seen seen(frame, width, height);
-    all |= seen_needs(frame, &seen);
+  FrameNeeds all = frame_needs(first, width, height);
+  for (int i = 1; i < frames; ++i) {
+    if (step) step();
+    all |= frame_needs(scene.frame(i, frames), width, height);
   }
-  needs.shadows = all.shadows;
-  needs.several_volumes = all.several_volumes;
-  needs.color = all.color;
-  needs.translucency = all.translucency;
-  return needs;
+  return needs_by(scene, first, all, width, height, samples);
 }
 
 }  // namespace kage

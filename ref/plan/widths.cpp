@@ -132,7 +132,8 @@ class Maker {
   void shadows() {
     const Needs& needs = features_.needs;
     if (!needs.shadows) {
-      set(&Config::dsf_bits, 0, "no shadow is seen: nothing opaque is there, or a lone convex body");
+      set(&Config::dsf_bits, 0,
+          "nothing opaque casts a shadow, or what does is one convex body, which keeps no light from itself");
       set(&Config::fsf, 0, "no shadows");
       set(&Config::count_bits, 0, "no shadows");
       set(&Config::lights, 1, "no shadows");

@@ -107,9 +107,12 @@ double exposure(const std::vector<Light>& lights, const Bounds& bounds) {
 bool may_reach(const Light& light, const Bounds& bounds) {
   if (light.color == glm::dvec3{0, 0, 0}) return false;
   if (light.directional) return true;
+  // Lights that are refused stay, and are.
+  if (!is_finite(light.position) || !is_finite(light.color)) return true;
   const double radius = 1.001 * (bounds.radius + length(light.axis_u) + length(light.axis_v));
   const glm::dvec3 out = bounds.center - light.position;
   const double distance = length(out);
+  if (!(distance < 0x1p40 * bounds.radius)) return true;
   if (light.falls_off && light.range > 0 && distance - radius >= light.range) return false;
   if (!light.spot || distance <= radius) return true;
   // The ball is seen within this angle from the light.

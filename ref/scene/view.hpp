@@ -39,7 +39,7 @@ void relative_intensities(std::vector<Light>& lights, const WorkingFrame& frame)
 double exposure(const std::vector<Light>& lights, const Bounds& bounds);
 
 /// Whether a light may shine on anything in the ball: no if it is black, or its range or cone ends before that. A
-/// little further than it does counts, too.
+/// little further than it does counts, too, and so does one so far that geometry refuses it.
 bool may_reach(const Light& light, const Bounds& bounds);
 
 /// Where the file has no light: directional, oblique, from above, at rest while the orbit turns.

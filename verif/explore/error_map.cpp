@@ -43,11 +43,11 @@ void add_color(PixelError& e, const Color& expected, const Color& drawn) {
   }
 }
 
-/// How far the shares of lights in shadow are apart at most; 0 only if all are equal.
+/// How far the shares of the first lights in shadow are apart at most; 0 only if all are equal.
 double share_off(const std::array<std::uint8_t, 8>& a, const std::vector<int>& of_a,
                  const std::array<std::uint8_t, 8>& b, const std::vector<int>& of_b) {
   double most = 0;
-  for (std::size_t l = 0; l < of_a.size(); ++l)
+  for (std::size_t l = 0; l < std::min(of_a.size(), a.size()); ++l)
     most = std::max(most, std::abs(a[l] * of_b[l] - b[l] * of_a[l]) / (double{static_cast<double>(of_a[l])} * of_b[l]));
   return most;
 }

@@ -25,7 +25,8 @@ TruePixel pixel(const Oracle& oracle, const FrameGeometry& g, const Config& conf
   oracle.shadows(x, surface, [&](std::uint32_t sample) {
     if (sample == last) return;  // volumes come in the order of their samples
     last = sample;
-    ++out.counts[g.sample_light[sample]];
+    // Counts are of the first lights alone, as those of what is drawn are.
+    if (const std::size_t light = g.sample_light[sample]; light < out.counts.size()) ++out.counts[light];
   });
   return out;
 }

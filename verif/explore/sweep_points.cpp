@@ -251,7 +251,11 @@ std::string text_of(const SweepPoint& p) {
                             static_cast<int>(p.look.translucent), p.look.seed, p.look.cull ? 1 : 0);
 }
 
-int samples_of(const SweepPoint& p) { return p.look.samples >> p.config.count_bits == 0 ? p.look.samples : 1; }
+int samples_of(const SweepPoint& p) {
+  // Lights without shadows shine from their samples, which nothing counts.
+  const bool fits = p.config.dsf_bits == 0 || p.look.samples >> p.config.count_bits == 0;
+  return fits ? p.look.samples : 1;
+}
 
 std::vector<std::string> axis_names() {
   std::vector<std::string> names;

@@ -200,6 +200,9 @@ SweepScene::SweepScene(std::shared_ptr<const Scene> scene, const DrawOptions& dr
   planned.draw.height = base.height;
   planned.draw.look.samples = kMaxSamples;
   d.features = plan::features_of(std::span(&planned, 1));
+  // A core that draws shadows where none are to be seen is held against a picture with shadows, too.
+  const std::vector<Component>& parts = frame(0).components;
+  d.features.needs.shadows = std::any_of(parts.begin(), parts.end(), [](const Component& c) { return !c.translucent; });
 }
 
 SweepScene::~SweepScene() = default;
@@ -233,11 +236,11 @@ DrawOptions SweepScene::draw_options(const SweepPoint& point) const {
 
 namespace {
 
-/// The point with everything at its finest, light after light or by a table. A table has no room for more than 8
-/// lights.
+/// The point with everything at its finest, light after light or by a table, which has room for the first 8 lights.
 SweepPoint finest_by(plan::Features features, const SweepPoint& point, bool linear) {
   SweepPoint out = point;
   features.needs.width = point.width;
+  if (!linear) features.needs.lights = std::min(features.needs.lights, kGreatest.lights);
   // Parity is right for any caster.
   const int dsf_bits = features.needs.shadows ? 1 : 0;
   out.config = plan::finest(features, {.dsf_bits = dsf_bits, .linear = linear}, 0);
@@ -292,14 +295,14 @@ SweepPoint SweepScene::alone(const SweepPoint& point, ErrorSource source) const 
       out.look.max_shading = point.look.max_shading;
       break;
     case ErrorSource::samples:
+      out.look.samples = samples_of(point);
+      out.look.seed = point.look.seed;
       if (c.dsf_bits == 0) break;
       c.dsf_bits = of.dsf_bits;
       c.fsf = of.fsf;
       c.count_bits =
           std::max(of.count_bits, 1);  // a table needs a counter, and one share for all is no matter of samples
       c.lights = std::min(c.lights, of.lights);
-      out.look.samples = samples_of(point);
-      out.look.seed = point.look.seed;
       break;
     case ErrorSource::classes:
       if (c.dsf_bits == 0 || c.linear_bits > 0) break;

@@ -78,8 +78,8 @@ class SceneFrames : public FrameSource {
   /// @param options how it is drawn
   SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options = {});
 
-  /// Drawn with the named configuration that choose_config() takes for the first frame: the first that has all it
-  /// needs, or a later one that costs a tenth less. Throws Error if none has all.
+  /// Drawn with the named configuration that choose_config() takes: the first that has all that the frames need, or a
+  /// later one that costs a tenth less. Throws Error if none has all.
   /// @param scene what is drawn
   /// @param options how it is drawn
   explicit SceneFrames(const std::shared_ptr<const Scene>& scene, const DrawOptions& options = {});
@@ -146,8 +146,8 @@ class StreamFrames : public FrameSource {
   Config config_;
 };
 
-/// Judges what drawing a scene takes, by one of its frames: a pane out of view asks for no translucency, and a lone
-/// convex body seen from outside for no shadows.
+/// Judges what drawing a scene takes, by one of its frames. Panes and colours out of view ask for nothing. A lone
+/// convex body seen from outside asks for no shadows.
 /// @param scene what is drawn
 /// @param frame one of its frames
 /// @param width of the picture, in pixels
@@ -156,14 +156,17 @@ class StreamFrames : public FrameSource {
 /// @return what a configuration must have
 Needs needs_of(const Scene& scene, const SceneFrame& frame, int width, int height, int samples = Look{}.samples);
 
-/// Judges what drawing frames of a scene takes: figures of light by the first of them, all else by each.
+/// Judges what drawing frames of a scene takes. How far light is off without a table, or without smooth colour, is
+/// judged by the first of them, all else by each.
 /// @param scene what is drawn
 /// @param frames how many of it there are
 /// @param width of the picture, in pixels
 /// @param height of the picture, in lines
 /// @param samples of a light that is no point, 1 .. kMaxSamples
+/// @param step called before each frame but the first; what it throws goes through
 /// @return what a configuration must have
-Needs needs_of_frames(const Scene& scene, int frames, int width, int height, int samples = Look{}.samples);
+Needs needs_of_frames(const Scene& scene, int frames, int width, int height, int samples = Look{}.samples,
+                      const std::function<void()>& step = {});
 
 /// Chooses among the named configurations. It takes the first in listed order that has all the
 /// frames need, unless a later one costs a tenth less. The cost is the clocks of the first frame at 640x480 times the

@@ -185,7 +185,10 @@ void Source::load_scene(const SourceOptions& options) {
         fmt::format("--size: {}x{}: at most {}x{}", options_.size.width, options_.size.height, kMaxSize, kMaxSize));
   const SceneFrame first = scene_->frame(0, frames_);
   notes_ = scene_notes(*scene_, first, options);
-  Needs needs = needs_of_frames(*scene_, frames_, options.size.width, options.size.height, options.samples);
+  const auto needed = [&] {
+    return needs_of_frames(*scene_, frames_, options.size.width, options.size.height, options.samples,
+                           [this] { host_.check(); });
+  };
   const bool given = options.parameters.has_value();
   if (options.config.empty() && !given) {
     try {
@@ -193,7 +196,7 @@ void Source::load_scene(const SourceOptions& options) {
       draw.frames = frames_;
       config_ = choose_config(*scene_, draw);
     } catch (const Error& e) {
-      const std::string line = widened_config(needs);
+      const std::string line = widened_config(needed());
       throw Error(fmt::format("{}: {}{}", options.input, e.what(),
                               line.empty() ? "" : "; --config FILE can, with this line in it: " + line));
     }
@@ -208,6 +211,7 @@ void Source::load_scene(const SourceOptions& options) {
     return;
   }
   config_ = *asked_config(options);
+  Needs needs = needed();
   std::vector<std::string> missing = lacks(config_.config, needs);
   if (!missing.empty() && options.degrade) {
     degraded_ = missing;

@@ -109,10 +109,10 @@ unwrapped small.yaml |
   sed "s/$cells/cells/" | cmp - without || fail "a front end changes more than ACTIVE and cells"
 [ "$(grep -c '^# words and clocks are those with spans from the host' small.yaml)" = 1 ] || fail "not said what the costs are of: $(cat small.yaml)"
 # Each way that was costed has its cells with a front end, as kage area estimates those of the chosen one.
-[ "$(grep -c " $cells" host.yaml)" -gt 1 ] || fail "$(cat host.yaml)"
-paste -d' ' <(grep -o '[0-9]* LUTs (within' host.yaml) <(grep -o '[0-9]* LUTs (within' small.yaml) | awk '{ if ($4 < $1 + 5000) exit 1 }' || fail "no front end in the cells"
+[ "$(unwrapped host.yaml | grep -c " $cells")" -gt 1 ] || fail "$(cat host.yaml)"
+paste -d' ' <(unwrapped host.yaml | grep -o '[0-9]* LUTs (within') <(unwrapped small.yaml | grep -o '[0-9]* LUTs (within') | awk '{ if ($4 < $1 + 5000) exit 1 }' || fail "no front end in the cells"
 expect 0 "$kage" area small.yaml --estimate
-grep -q ": some $(grep -m1 -o '[0-9]* LUTs' small.yaml) and " stdout || fail "$(cat stdout)"
+grep -q ": some $(unwrapped small.yaml | grep -m1 -o '[0-9]* LUTs') and " stdout || fail "$(cat stdout)"
 
 trouble "--front-end: card not in {host,rtl}" "$kage" plan courtyard --front-end card
 expect 0 "$kage" help plan

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <glm/geometric.hpp>
 #include <memory>
 
 #include "contract/derived.hpp"
@@ -260,6 +261,45 @@ TEST_CASE("volumes that a core without FSF leaves out are wrong and not gross") 
     const PointAccuracy a = s.accuracy(one, s.drawn(one));
     CHECK(a.by_truth.shadow_wrong > 100);
     CHECK(a.by_truth.gross_wrong == 0);
+  }
+}
+
+TEST_CASE("of more lights than a table has the first ones are compared") {
+  for (const int lights : {9, 64}) {
+    CAPTURE(lights);
+    SceneParts parts;
+    SceneObject floor;
+    floor.positions = {{-3, 0, -3}, {3, 0, -3}, {3, 0, 3}, {-3, 0, 3}};
+    floor.triangles = {{0, 2, 1}, {0, 3, 2}};
+    SceneObject roof;
+    roof.positions = {{-1, 1, -1}, {1, 1, -1}, {1, 1, 1}, {-1, 1, 1}};
+    roof.triangles = {{0, 2, 1}, {0, 3, 2}};
+    parts.objects = {floor, roof};
+    std::vector<Light> all;
+    for (int i = 0; i < lights; ++i) {
+      Light l;
+      l.direction = glm::normalize(glm::dvec3{std::cos(i), -2, std::sin(i)});
+      all.push_back(l);
+    }
+    parts.lights = {all};
+    SweepPoint point;
+    point.config = load_config("linear").config;
+    point.look.fit = true;
+    point = with(point, "SIZE", "64x48");
+    SweepScene scene(std::make_shared<const Scene>(Scene::from(parts)),
+                     {.width = 64, .height = 48, .frames = 1, .threads = 1, .name = "many"}, point, [] {});
+    const auto drawn = [&](const SweepPoint& p) { return draw(scene.frame(0), p.config, scene.draw_options(p)); };
+    const PointAccuracy a = accuracy_of(scene, 0, point, drawn(point), false);
+    CHECK(a.by_truth.visible_wrong + a.by_truth.shadow_wrong == 0);
+    CHECK(scene.error_of(0, point, ErrorSource::samples)->shadow_wrong == 0);
+    CHECK(scene.error_of(0, point, ErrorSource::depth)->shadow_wrong == 0);
+    // A table has no room for the others, which is its law's error.
+    SweepPoint table = point;
+    table.config = load_config("lights").config;
+    table.config.lights = 8;
+    table = with(table, "SIZE", "64x48");
+    CHECK(scene.finest_of_law(table).config.lights == 8);
+    CHECK(scene.error_of(0, table, ErrorSource::law)->squares > 0);
   }
 }
 

@@ -72,11 +72,11 @@ struct Drawn {
   std::uint64_t panes = 0;  // TP tokens
 };
 
-Drawn drawn(const Scene& scene, const Config& config) {
+Drawn drawn(const Scene& scene, const Config& config, int max_shading = 0) {
   Drawn out;
   Look look;
   look.fit = true;
-  look.max_shading = 0;
+  look.max_shading = max_shading;
   look.translucent = TranslucentWay::submission;
   std::vector<std::uint32_t> words;
   make_frame(make_geometry(scene.frame(0, 1), config, kWidth, kHeight, {.look = look}), config, 0, words,
@@ -107,20 +107,37 @@ struct Rays {
     const verif::LightReference reference(frame, rays, verif::sampled_points(frame, {}), kWidth, kHeight);
     for (int y = 0; y < kHeight; ++y)
       for (int x = 0; x < kWidth; ++x) {
-        const auto p = reference.pixel_with_ties(x, y, 0.01);
-        tie.push_back(p.tie);
+        const auto& p = truth.emplace_back(reference.pixel_with_ties(x, y, 0.01));
         any_shadow = any_shadow || (p.shadowed && !p.tie);
       }
   }
 
-  std::vector<bool> tie;
+  std::vector<verif::ReferencePixel> truth;
   bool any_shadow = false;
 };
+
+/// The configuration that is taken for a picture without --config.
+Config chosen(const Scene& scene) {
+  DrawOptions draw;
+  draw.width = kWidth;
+  draw.height = kHeight;
+  draw.frames = 1;
+  return choose_config(scene, draw).config;
+}
+
+std::vector<std::uint32_t> words_of(const Drawn& d) {
+  const std::size_t channels = d.pixels.size() / (std::size_t{kWidth} * kHeight);
+  std::vector<std::uint32_t> words;
+  for (std::size_t i = 0; i < d.pixels.size(); i += channels)
+    words.push_back(d.pixels[i] | static_cast<std::uint32_t>(d.pixels[i + channels / 2]) << 8 |
+                    static_cast<std::uint32_t>(d.pixels[i + channels - 1]) << 16);
+  return words;
+}
 
 /// Whether pictures differ elsewhere than at ties.
 bool differ(const Drawn& a, const Drawn& b, const Rays& rays) {
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
-    if (a.pixels[i] != b.pixels[i] && !rays.tie[i / 3]) return true;
+    if (a.pixels[i] != b.pixels[i] && !rays.truth[i / 3].tie) return true;
   return false;
 }
 
@@ -131,6 +148,8 @@ TEST_CASE("a lone convex body asks for shadows only where its inner sides may be
   int none = 0;
   int some = 0;
   int inner = 0;
+  double off = 0;
+  std::uint64_t channels = 0;
   for (int round = 0; round < 300; ++round) {
     SceneParts parts;
     parts.objects = {block(r.point(0.5), r.point(1), r.point(1), r.point(1))};
@@ -151,12 +170,53 @@ TEST_CASE("a lone convex body asks for shadows only where its inner sides may be
     inner += rays.any_shadow ? 1 : 0;
     CAPTURE(round);
     CHECK((asked || !rays.any_shadow));
+    if (asked) continue;
     // Shares of a light whose points are on both sides of a face are rounded.
-    if (hard && !asked) CHECK_FALSE(differ(drawn(scene, rich(4, 0, 3)), drawn(scene, rich(0, 0, 3)), rays));
+    if (hard) CHECK_FALSE(differ(drawn(scene, rich(4, 0, 3)), drawn(scene, rich(0, 0, 3)), rays));
+    // The core that is taken for it shows the light that there is.
+    const verif::LightError e =
+        verif::compare_light(words_of(drawn(scene, chosen(scene), Look{}.max_shading)), rays.truth);
+    off += e.lit_sum;
+    channels += 3 * e.pixels;
   }
+  CHECK(off / static_cast<double>(channels) < 1);
   CHECK(none > 60);
   CHECK(some > 60);
   CHECK(inner > 10);
+}
+
+TEST_CASE("a lone convex body asks for shadows where --cull shows its inside") {
+  Random r(52);
+  for (const bool inside_out : {false, true}) {
+    SceneParts parts;
+    SceneObject body = block({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2});
+    parts.materials = {{.color = {0.5, 0.5, 0.5}, .double_sided = false}};
+    body.materials.assign(12, 0);
+    if (inside_out)
+      for (auto& t : body.triangles) std::swap(t[1], t[2]);
+    parts.objects = {body};
+    parts.cameras = {looking({4, 3, 8}, {0, 0, 0}, 0.1)};
+    const Scene scene = Scene::from(parts);
+    CHECK(needs_of(scene, scene.frame(0, 1), kWidth, kHeight).shadows == inside_out);
+  }
+}
+
+TEST_CASE("lights that come later ask for what they take") {
+  SceneParts parts;
+  parts.objects = {block({-1, -1, -1}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}),
+                   block({-3, -3, -3}, {6, 0, 0}, {0, 0.5, 0}, {0, 0, 6})};
+  parts.cameras = {looking({4, 5, 8}, {0, 0, 0}, 0.1)};
+  Light red = lamp({0, 4, 0});
+  red.color = {1, 0.1, 0.1};
+  Light soft = lamp({2, 4, 0});
+  soft.shape = LightShape::sphere;
+  soft.axis_u = {0.5, 0, 0};
+  parts.lights = {{lamp({0, 4, 0})}, {red}, {lamp({0, 4, 0}), lamp({1, 4, 1}), soft}};
+  const Scene scene = Scene::from(parts);
+  const Needs first = needs_of(scene, scene.frame(0, 3), kWidth, kHeight);
+  CHECK((first.lights == 1 && first.samples == 1 && !first.color));
+  const Needs all = needs_of_frames(scene, 3, kWidth, kHeight);
+  CHECK((all.lights == 3 && all.samples > 1 && all.color));
 }
 
 TEST_CASE("a pane and a colour ask for nothing where they are out of view") {
@@ -179,6 +239,7 @@ TEST_CASE("a pane and a colour ask for nothing where they are out of view") {
     CAPTURE(round);
     const Drawn all = drawn(scene, rich(4, 1, 3));
     CHECK_FALSE((!needs.translucency && all.panes > 0));
+    if (!needs.translucency) CHECK(all.pixels == drawn(scene, rich(4, 0, 3)).pixels);
     panes += all.panes > 0 ? 1 : 0;
     no_panes += needs.translucency ? 0 : 1;
     if (needs.color) continue;
