@@ -185,8 +185,8 @@ struct SceneParts {
   std::vector<Material> materials;   ///< none: white
   /// One for all frames, or one for each; none: an orbit round the scene. Camera::right is made anew.
   std::vector<Camera> cameras;
-  /// One set for all frames, or one for each, of at most kMaxLights lights; none: a directional light. Of one set,
-  /// lights that reach nothing are left out: black ones, and those whose range or cone ends before the scene.
+  /// One set for all frames, or one for each, of at most kMaxLights lights; none: a directional light. One set
+  /// for all loses lights that reach nothing: black ones, and those whose range or cone ends before the scene.
   std::vector<std::vector<Light>> lights;
 };
 
