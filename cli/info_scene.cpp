@@ -141,10 +141,13 @@ void print(const Options& o, const Json& j) {
   fmt::print("animations: {}{}\n", number(j["animations"]),
              number(j["moving_nodes"]) == 0 ? "" : ", " + counted(number(j["moving_nodes"]), "node") + " moved");
   for (const Json& note : j["notes"]) fmt::print("note: {}\n", shown(note.get<std::string>()));
-  fmt::print(
-      "light: one share for all shadows leaves them {:.2f} steps of 255 off, root mean square; one colour a face "
-      "leaves it {:.1f} off\n",
-      j["light"]["share_error"].get<double>(), j["light"]["color_spread"].get<double>());
+  const double share_error = j["light"]["share_error"].get<double>();
+  fmt::print("light: {}; one colour a face leaves it {:.1f} off\n",
+             share_error > 0 ? fmt::format("one share for all shadows leaves them {:.2f} steps of 255 off, root mean "
+                                           "square",
+                                           share_error)
+                             : "one share does for all shadows, or none is seen",
+             j["light"]["color_spread"].get<double>());
   const std::string size = fmt::format("{}x{}", o.size.width, o.size.height);
   if (j["configurations"].empty())
     fmt::print(
