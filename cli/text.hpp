@@ -27,14 +27,14 @@ inline std::string wrapped_comments(const std::string& text, std::size_t width =
     std::string line = text.substr(at, end - at);
     at = end + 1;
     const std::size_t comment = line.find('#');
-    const std::string begin(comment == std::string::npos ? 0 : comment, ' ');
+    const std::string begin = std::string(comment == std::string::npos ? 0 : comment, ' ').append("#   ");
     while (comment != std::string::npos && line.size() > width) {
       std::size_t blank = line.rfind(' ', width);
       // A long word stands in a line of its own.
       if (blank == std::string::npos || blank <= comment + 4) blank = line.find(' ', comment + 5);
       if (blank == std::string::npos) break;
       out += line.substr(0, blank) + "\n";
-      line = begin + "#   " + line.substr(blank + 1);
+      line.replace(0, blank + 1, begin);
     }
     out += line + "\n";
   }
