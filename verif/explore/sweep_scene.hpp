@@ -81,10 +81,11 @@ class SweepScene {
   /// The point with everything that changes a picture at its finest: 8 bits of snapped positions, the widest depth and
   /// colour, the most samples, shadows light after light, exact order.
   [[nodiscard]] SweepPoint finest(const SweepPoint& point) const;
-  /// That by the point's own law: with the most classes and the widest shares of a table where the point has no
-  /// LINEAR_BITS. All sources but the law itself are held against it, for their parameters are those of one law.
+  /// The finest point by the given point's own law: with the most classes and the widest shares of a table where the
+  /// point has no LINEAR_BITS. All sources but the law itself are held against it, for their parameters are those of
+  /// one law.
   [[nodiscard]] SweepPoint finest_of_law(const SweepPoint& point) const;
-  /// That, but for one source, which is as the point has it.
+  /// The finest of its law but for one source, which is as the point has it.
   [[nodiscard]] SweepPoint alone(const SweepPoint& point, ErrorSource source) const;
   /// How many samples each light of a frame has.
   [[nodiscard]] std::vector<int> light_samples(int index, const SweepPoint& point) const;

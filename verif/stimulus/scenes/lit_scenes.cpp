@@ -9,6 +9,15 @@
 #include "stimulus/shapes.hpp"
 
 namespace kage::verif {
+Light lamp(const glm::dvec3& position, const glm::dvec3& color) {
+  Light l;
+  l.directional = false;
+  l.position = position;
+  l.color = color;
+  l.falls_off = true;
+  return l;
+}
+
 namespace {
 
 /// A plate in the plane y = 0, from -half to half, of so many cells a side.
@@ -87,15 +96,6 @@ Light sun(const glm::dvec3& towards, const glm::dvec3& color) {
   Light l;
   l.direction = glm::normalize(-towards);
   l.color = color;
-  return l;
-}
-
-Light lamp(const glm::dvec3& position, const glm::dvec3& color) {
-  Light l;
-  l.directional = false;
-  l.position = position;
-  l.color = color;
-  l.falls_off = true;
   return l;
 }
 

@@ -19,6 +19,9 @@ struct LitScene {
   SceneParts parts;
 };
 
+/// A point light that falls off with the square of the distance, without a range; `color` is that at distance 1.
+Light lamp(const glm::dvec3& position, const glm::dvec3& color);
+
 /// One light, several of a kind, cones, ranges, a window before a table, eight lamps of an office, and a floor of two
 /// triangles. The same on every machine.
 std::vector<LitScene> lit_scenes();

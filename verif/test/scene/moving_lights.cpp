@@ -28,15 +28,6 @@ SceneParts still_life() {
   throw std::logic_error("no three-lamps");
 }
 
-Light lamp(const glm::dvec3& position, const glm::dvec3& color) {
-  Light l;
-  l.directional = false;
-  l.position = position;
-  l.color = color;
-  l.falls_off = true;
-  return l;
-}
-
 void move(SceneObject& o, const glm::vec3& by) {
   for (glm::vec3& p : o.positions) p += by;
 }

@@ -91,14 +91,7 @@ Drawn drawn(const Scene& scene, const Config& config, int max_shading = 0) {
   return out;
 }
 
-Light lamp(const glm::dvec3& at) {
-  Light l;
-  l.directional = false;
-  l.position = at;
-  l.falls_off = true;
-  l.color = {4, 4, 4};
-  return l;
-}
+Light lamp(const glm::dvec3& at) { return verif::lamp(at, {4, 4, 4}); }
 
 /// Pixels out of which light that would arrive is kept, by rays, and those that a hundredth of a pixel decides.
 struct Rays {
