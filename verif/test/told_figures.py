@@ -34,6 +34,7 @@ bad = 0
 
 
 def copy(to):
+    """A tree whose rows belong to it, in `to`; returns by how many seeds the board was placed that the pages quote."""
     for folder in ("rtl", "constraints"):
         shutil.copytree(SOURCE / folder, to / folder)
     (to / "tools/fpga_flow").mkdir(parents=True)
@@ -64,6 +65,7 @@ def copy(to):
     (to / "docs/page.md").write_text(
         PAGE.format(clock=polygons4["clock_mhz"], board=(clk, told["cells"]["lut"]["used"]))
     )
+    return len(told["clocks"][0]["clocks_mhz"])
 
 
 def figures(top, *arguments):
@@ -95,7 +97,7 @@ def change(top, name, old, new):
 
 with tempfile.TemporaryDirectory() as folder:
     top = pathlib.Path(folder) / "tree"
-    copy(top)
+    seeds = copy(top)
     expect("a table that nobody recorded", top, 1, "docs/page.md: table cells was never recorded")
     code, said = figures(top, "--record", "cells")
     if code or "other rows: base" not in said or "| base | 7 |" not in (top / "docs/page.md").read_text():
@@ -114,7 +116,7 @@ with tempfile.TemporaryDirectory() as folder:
     for what, name, old, new, said in (
         ("RTL", "rtl/lane_ramp.sv", "part_q - rest_q", "part_q + rest_q", ("README.md: quotes ecp5-25f lanes4, whose row is of other RTL or tools (rtl/lane_ramp.sv)", "docs/page.md: table cells is of other files than those that are here (rtl/lane_ramp.sv)")),
         ("a header", "rtl/include/kage_pixel_next.svh", "z < ", "z <= ", ("(rtl/include/kage_pixel_next.svh)",)),
-        ("a board's RTL", "rtl/board/board_core.sv", "endmodule", "  logic more;\nendmodule", ("docs/page.md: quotes hx8k_breakout, whose row is of other RTL or tools (rtl/board/board_core.sv)", "tools/fpga hx8k_breakout --seeds 1 --record")),
+        ("a board's RTL", "rtl/board/board_core.sv", "endmodule", "  logic more;\nendmodule", ("docs/page.md: quotes hx8k_breakout, whose row is of other RTL or tools (rtl/board/board_core.sv)", f"tools/fpga hx8k_breakout --seeds {seeds} --record")),
         ("a board's number", "docs/page.md", " look-up tables.", "1 look-up tables.", ("docs/page.md: does not say what was measured: on a board",)),
         ("the front end", "rtl/front_end.sv", "Depth = 32", "Depth = 64", ("docs/page.md: quotes ecp5-85f polygons4",)),
         ("the flow", "tools/fpga_flow/flow.py", "--timing-allow-fail", "--timing", ("tools/fpga_flow/flow.py",)),
