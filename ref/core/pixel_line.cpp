@@ -16,13 +16,6 @@ static_assert(std::tuple_size_v<decltype(PixelState::counts)> == kGreatest.light
 /// As a line's depths have it.
 std::int32_t clear_depth(const Config& c) { return static_cast<std::int32_t>(derived::clear_depth(c)); }
 
-DepthRamp depth_ramp(const Config& c, const SpanToken& s) {
-  const int spare = 64 - derived::depth_bits(c);
-  return {static_cast<std::int64_t>(static_cast<std::uint64_t>(s.z) << spare),
-          static_cast<std::int64_t>(static_cast<std::uint64_t>(s.dz) << spare), 30 - c.z_bits,
-          static_cast<std::int32_t>(derived::most_depth(c))};
-}
-
 }  // namespace
 
 PixelLine::PixelLine(const Config& config) : config_(config), dsf_mask_(derived::most_dsf(config)) {

@@ -11,9 +11,9 @@
 
 #include "core/expansion_unit.hpp"
 #include "core/linear_light.hpp"
-#include "core/span_kernels.hpp"
 #include "kage/core.hpp"
 #include "kage/token.hpp"
+#include "kernels/span_kernels.hpp"
 
 namespace kage {
 

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "frontend/band_effect.hpp"
 #include "frontend/cut.hpp"
 #include "frontend/polygon_layout.hpp"
 #include "frontend/polygon_shape.hpp"
@@ -17,6 +18,7 @@
 #include "frontend/scan.hpp"
 #include "frontend/sweep.hpp"
 #include "frontend/tree_layout.hpp"
+#include "frontend/uses.hpp"
 #include "frontend/weight.hpp"
 #include "kage/frontend.hpp"
 #include "kage/token.hpp"
@@ -28,6 +30,7 @@ struct FramePlan {
   const FrameGeometry* geometry;
   const Config* config;
   TreeLayout tree;
+  Uses uses;
   std::vector<std::uint32_t> volume_of_face;
   std::vector<std::uint32_t> volume_of_edge;
   Sweep polygons;
@@ -35,6 +38,7 @@ struct FramePlan {
   Sweep edges;
   Sweep tree_edges;
   Sweep fragments;
+  bool all_spans;                       // those without effect too
   std::optional<PolygonLayout> layout;  // at the polygon level
 };
 
@@ -50,14 +54,17 @@ struct BandWork {
 /// Makes the words of one band after the other; keeps its buffers.
 class Band {
  public:
-  /// With `origins` it keeps where spans come from.
-  Band(const FramePlan& frame, bool origins)
+  /// With `origins` it keeps where spans come from. With `words` it adds there what they take.
+  Band(const FramePlan& frame, bool origins, SpanWords* words = nullptr)
       : f_(&frame),
         keeps_origins_(origins),
+        span_words_(words),
         g_(frame.geometry),
         layout_(frame.layout ? &*frame.layout : nullptr),
         writer_(*frame.config, words_),
-        spans_(*frame.geometry, *frame.config) {}
+        spans_(*frame.geometry, *frame.config) {
+    if (!frame.all_spans) effect_.emplace(*frame.config, frame.geometry->width);
+  }
 
   /// The next band's work, to be filled in before make().
   BandWork& work() { return work_; }
@@ -87,7 +94,10 @@ class Band {
     words_.clear();
     written_ = {};
     for (Line& line : lines_) line.clear();
-    kept_.clear();
+    drawn_.clear();
+    parts_.clear();
+    painted_ = 0;
+    received_ = kNoLight;
     opaque();
     if (f_->config->dsf_bits > 0) volumes();
     if (f_->config->translucency > 0) translucent();
@@ -112,25 +122,31 @@ class Band {
   }
 
  private:
-  /// Pixels that shadow tokens have touched.
-  struct Touched {
-    int from = 0;
-    int to = 0;
+  /// Pixels that count without a look at their depth.
+  struct NearRun {
+    int xl;
+    int xr;
+    int w;
+  };
 
-    [[nodiscard]] bool none() const { return from == to; }
-    void add(int xl, int xr) {
-      from = none() ? xl : std::min(from, xl);
-      to = std::max(to, xr);
-    }
+  /// A span of a volume's face.
+  struct FaceSpan {
+    std::uint32_t face;
+    SpanToken span;
   };
 
   struct Line {
     std::vector<std::uint32_t> opaque;
     std::vector<std::uint32_t> shadow;
     std::vector<std::uint32_t> translucent;
-    std::vector<Crossing> near;  // of the volume being worked on
-    Touched volume;
-    Touched sample;          // of light
+    // These are of the volume being worked on:
+    std::vector<Crossing> near;
+    std::vector<NearRun> before_all;  // spans that lie before all that receives
+    std::vector<FaceSpan> held;       // those that depth decides, until the volume has an effect
+    PixelRange volume;                // pixels that its tokens have touched
+    bool has_polygon = false;         // it has one that goes as such
+
+    PixelRange sample;       // of light
     std::size_t passes = 0;  // lights whose RESOLVE has come
     bool open = false;       // volumes have come, and no RESOLVE behind them
     FrameOrigins origins;
@@ -143,14 +159,24 @@ class Band {
       opaque.clear();
       shadow.clear();
       translucent.clear();
-      near.clear();
-      volume = {};
+      start_volume();
       sample = {};
       passes = 0;
       open = false;
       place.reset();
     }
+    void start_volume() {
+      near.clear();
+      before_all.clear();
+      held.clear();
+      volume = {};
+      has_polygon = false;
+    }
   };
+
+  /// Pixels that are no word's worth: so wide a gap between runs is filled.
+  static constexpr int kWidestJoin = 16;
+  static constexpr std::size_t kNoLight = ~std::size_t{0};
 
   Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
 
@@ -163,11 +189,19 @@ class Band {
     std::optional<std::size_t> pass;  // of its colour, if it has one
   };
 
-  /// A span of an opaque polygon, which comes again with each light.
-  struct Kept {
+  /// A span of an opaque polygon.
+  struct Drawn {
     std::uint32_t polygon;
     int y;
     SpanToken span;
+    std::size_t first_part;
+    std::size_t part_count;
+  };
+
+  /// A part of such a span, of one colour or ramp, as the pass at hand draws it.
+  struct Part {
+    SpanToken span;
+    PixelRange shown;
   };
 
   [[nodiscard]] bool made(PolygonWay way) const { return layout_ != nullptr && way == PolygonWay::polygon; }
@@ -225,32 +259,63 @@ class Band {
 
   void opaque() {
     const bool again = !g_->passes.empty();
+    if (effect_) effect_->start(y1_ - y0_);
     for (const std::uint32_t i : work_.polygons) {
-      const bool in_unit = i < f_->tree.first_span_polygon();
-      if (in_unit && !again) continue;
       const ScreenPolygon& p = g_->polygons[i];
-      const Role role = drawn_role(p, Layer::opaque, [&] { return layout_->opaque(i); });
+      if (i < f_->tree.first_span_polygon() && !again && !effect_) continue;
+      spans_.each(p, y0_, y1_, [&](int y, SpanToken& s, int) {
+        drawn_.push_back({i, y, s, parts_.size(), 0});
+        spans_.painted(p, y, s, 0, [&](const SpanToken& part) {
+          parts_.push_back({part, {part.xl, part.xr}});
+          if (effect_) effect_->draw(y - y0_, part);
+        });
+        drawn_.back().part_count = parts_.size() - drawn_.back().first_part;
+      });
+    }
+    if (effect_) {
+      effect_->end_drawing();
+      for (std::uint32_t n = 0; n < parts_.size(); ++n) parts_[n].shown = effect_->shown(n);
+    }
+    write_drawn(
+        [&](std::uint32_t i) { return drawn_role(g_->polygons[i], Layer::opaque, [&] { return layout_->opaque(i); }); },
+        Uses::drawn(0), f_->tree.first_span_polygon(), [](Line&) {});
+  }
+
+  /// The opaque polygons from a number on, by what parts_ shows of each, in the role that get_role(polygon) says; their
+  /// uses begin with `first_use`. Calls start(line) before each span.
+  template <class GetRole, class Start>
+  void write_drawn(GetRole get_role, std::size_t first_use, std::uint32_t first_polygon, Start start) {
+    auto drawn = drawn_.begin();
+    for (const std::uint32_t i : work_.polygons) {
+      const auto from = drawn;
+      while (drawn != drawn_.end() && drawn->polygon == i) ++drawn;
+      if (i < first_polygon) continue;
+      const Role role = get_role(i);
       const bool as_polygon = made(role.way);
       if (as_polygon) polygon(i, role);
-      if (as_polygon && !keeps_origins_ && !again) continue;
-      spans_.each(p, y0_, y1_, [&](int y, SpanToken& s, int) {
-        if (!in_unit) drawn_span(i, role, as_polygon, y, s);
-        if (again) kept_.push_back({i, y, s});
-      });
+      for (auto d = from; d != drawn; ++d) {
+        Line& line = at(d->y);
+        for (std::size_t n = d->first_part; n < d->first_part + d->part_count; ++n) {
+          const Part& part = parts_[n];
+          if (!as_polygon && part.shown.none()) continue;
+          start(line);
+          if (!as_polygon) {
+            before_span(line, i, role);
+            writer_.op(restricted(part.span, part.shown));
+            if (span_words_ != nullptr) span_words_->add(first_use + i, Kind::OP);
+          }
+          if (keeps_origins_) line.origins.opaque.push_back({i, TokenOrigin::kNone});
+        }
+      }
     }
   }
 
-  /// A span of an opaque polygon in a pass, unless the front end makes it.
-  void drawn_span(std::uint32_t number, const Role& role, bool as_polygon, int y, SpanToken s) {
-    const auto keep_origin = [&] {
-      if (keeps_origins_) at(y).origins.opaque.push_back({number, TokenOrigin::kNone});
-    };
-    if (as_polygon) return keep_origin();
-    spans_.painted(g_->polygons[number], y, s, *role.pass, [&](const SpanToken& part) {
-      before_span(at(y), number, role);
-      writer_.op(part);
-      keep_origin();
-    });
+  /// A span in some of its pixels, with depth and colour as the whole has them there.
+  [[nodiscard]] static SpanToken restricted(SpanToken s, const PixelRange& pixels) {
+    const int on = pixels.first - s.xl;
+    for (std::size_t c = 0; c < 3; ++c) s.color[c] += on * s.dcolor[c];
+    PolygonSpans::restrict(s, pixels.first, pixels.end);
+    return s;
   }
 
   // A fragment's span is a part of its face's, with the face's depth and colour there, bit for bit.
@@ -281,11 +346,15 @@ class Band {
             const int from = std::max(part.xl, xl);
             const int to = std::min(part.xr, xr);
             if (from >= to) return;
-            const int on = from - part.xl;
-            for (std::size_t c = 0; c < 3; ++c) part.color[c] += on * part.dcolor[c];
-            PolygonSpans::restrict(part, from, to);
+            part = restricted(part, {from, to});
+            if (effect_) {
+              const PixelRange seen = effect_->before(y - y0_, part);
+              if (seen.none()) return;
+              part = restricted(part, seen);
+            }
             before_span(at(y), k, role);
             writer_.tp(part);
+            if (span_words_ != nullptr) span_words_->add(f_->uses.translucent(i, k - f.first_polygon), Kind::TP);
             if (keeps_origins_) at(y).origins.translucent.push_back({k, TokenOrigin::kNone});
           });
         });
@@ -300,13 +369,20 @@ class Band {
     std::size_t edge = 0;
     std::uint32_t sample = 0;
     std::size_t pass = 0;  // of lights that have come
+    const auto start_sample = [&](std::uint32_t next) {
+      for (; !g_->passes.empty() && pass < g_->sample_light[next]; ++pass) light(pass);
+      if (effect_) receive(next);
+    };
+    bool any = false;
     while (face < faces.size() || edge < edges.size()) {
       std::uint32_t v = ~0U;
       if (face < faces.size()) v = f_->volume_of_face[faces[face]];
       if (edge < edges.size()) v = std::min(v, f_->volume_of_edge[edges[edge]]);
-      if (g_->volumes[v].sample != sample) close_sample(sample);
-      sample = g_->volumes[v].sample;
-      for (; !g_->passes.empty() && pass < g_->sample_light[sample]; ++pass) light(pass);
+      const std::uint32_t of = g_->volumes[v].sample;
+      if (of != sample) close_sample(sample);
+      if (of != sample || !any) start_sample(of);
+      sample = of;
+      any = true;
       for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face) volume_face(faces[face], v);
       for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge)
         near_edge(g_->near_edges[edges[edge]]);
@@ -327,49 +403,114 @@ class Band {
 
   /// The opaque spans once more, with a light's colours, those of units too: behind its volumes.
   void light(std::size_t pass) {
+    paint(pass);
     const int samples = f_->config->count_bits > 0 ? g_->passes[pass] : 0;
-    auto span = kept_.begin();
-    for (const std::uint32_t i : work_.polygons) {
-      Role role{PolygonWay::polygon, {}, &Line::shadow, {}, 1 + pass};
-      if (layout_ != nullptr) {
-        const PolygonLayout::Use use = layout_->lit(pass, i);
-        role.way = use.way;
-        role.place = layout_->light_place(pass, use.before);
-      }
-      const bool as_polygon = made(role.way);
-      if (as_polygon) polygon(i, role);
-      for (; span != kept_.end() && span->polygon == i; ++span) {
-        Line& line = at(span->y);
-        if (layout_ == nullptr && line.passes == pass) resolve(line, samples);
-        line.passes = pass + 1;
-        drawn_span(i, role, as_polygon, span->y, span->span);
-      }
+    write_drawn(
+        [&](std::uint32_t i) {
+          Role role{PolygonWay::polygon, {}, &Line::shadow, {}, 1 + pass};
+          if (layout_ != nullptr) {
+            const PolygonLayout::Use use = layout_->lit(pass, i);
+            role.way = use.way;
+            role.place = layout_->light_place(pass, use.before);
+          }
+          return role;
+        },
+        f_->uses.lit(pass, 0), 0,
+        [&](Line& line) {
+          if (layout_ == nullptr && line.passes == pass) resolve(line, samples);
+          line.passes = pass + 1;
+        });
+  }
+
+  /// Give all parts the colours of a light.
+  void paint(std::size_t pass) {
+    if (painted_ == 1 + pass) return;
+    painted_ = 1 + pass;
+    for (const Drawn& d : drawn_) {
+      std::size_t n = d.first_part;
+      SpanToken s = d.span;
+      spans_.painted(g_->polygons[d.polygon], d.y, s, 1 + pass,
+                     [&](const SpanToken& part) { parts_[n++].span = part; });
     }
+  }
+
+  /// A sample begins: a pixel receives its shadow if some of its light comes to the part that the pixel shows.
+  void receive(std::uint32_t sample) {
+    const std::size_t light = sample < g_->sample_light.size() ? g_->sample_light[sample] : 0;
+    if (received_ == light) return effect_->clear_flags();
+    received_ = light;
+    if (!g_->passes.empty()) paint(light);
+    effect_->start_sample([&](std::uint32_t part) { return receives(parts_[part].span, light); });
+  }
+
+  /// Whether a part brings nothing of a light to any pixel, at whose ends it has the least and the most.
+  [[nodiscard]] static bool is_dark(const Config& c, const SpanToken& part) {
+    const int levels = derived::lane_level_bits(c) - 8;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i)
+      for (const int on : {0, part.xr - 1 - part.xl})
+        if ((part.color[i] + on * part.dcolor[i]) >> (c.color_frac - levels) > 0) return false;
+    return true;
+  }
+
+  [[nodiscard]] bool receives(const SpanToken& part, std::size_t light) const {
+    const Config& c = *f_->config;
+    if (!g_->passes.empty()) return !is_dark(c, part);
+    if (part.normal_class == 0) return false;
+    if (!derived::has_table(c)) return true;
+    const auto& share =
+        g_->shares[(static_cast<std::size_t>(part.normal_class) - 1) * static_cast<std::size_t>(c.lights) + light];
+    return std::any_of(share.begin(), share.begin() + c.channels, [](std::uint32_t s) { return s != 0; });
   }
 
   void volume_face(std::uint32_t number, std::uint32_t volume) {
     const VolumeFace& face = g_->volume_faces[number];
-    Role role{PolygonWay::polygon, {}, &Line::shadow, {}, std::nullopt};
-    if (layout_ != nullptr) {
-      const PolygonLayout::Use use = layout_->face(number);
-      role.way = use.way;
-      role.place = layout_->place(volume, use.before);
-      role.look.w = weight(*f_->config, face.w);
-    }
+    Role role = face_role(number, volume);
     const bool as_polygon = made(role.way);
     if (as_polygon) polygon(face.polygon, role);
-    if (as_polygon && !keeps_origins_) return;
+    if (as_polygon && !keeps_origins_ && !effect_) return;
+    // A cap that is drawn lies nowhere before what is drawn.
+    if (effect_ && !as_polygon && face.polygon < g_->drawn) return;
     spans_.each(g_->polygons[face.polygon], y0_, y1_, [&](int y, SpanToken& s, int winding) {
       s.w = weight(*f_->config, winding * face.w);
       if (s.w == 0) return;
       Line& line = at(y);
-      if (!as_polygon) {
-        before_span(line, face.polygon, role);
-        writer_.sp(s);
+      if (as_polygon) {
+        if (keeps_origins_) line.origins.shadow.push_back({face.polygon, volume});
+        if (effect_) effect_->count(y - y0_, s);
+        line.has_polygon = true;
+        line.volume.add(s.xl, s.xr);
+      } else if (!effect_) {
+        face_span(line, number, volume, role, s);
+      } else {
+        const Before before = effect_->count(y - y0_, s);
+        if (before.pixels.none()) return;
+        if (span_words_ != nullptr) span_words_->add(f_->uses.face(number), before.all ? Kind::NC : Kind::SP);
+        if (before.all) {
+          line.before_all.push_back({before.pixels.first, before.pixels.end, s.w});
+        } else {
+          line.held.push_back({number, restricted(s, before.pixels)});
+        }
+        line.volume.add(before.pixels.first, before.pixels.end);
       }
-      if (keeps_origins_) line.origins.shadow.push_back({face.polygon, volume});
-      line.volume.add(s.xl, s.xr);
     });
+  }
+
+  [[nodiscard]] Role face_role(std::uint32_t number, std::uint32_t volume) const {
+    Role role{PolygonWay::polygon, {}, &Line::shadow, {}, std::nullopt};
+    if (layout_ == nullptr) return role;
+    const PolygonLayout::Use use = layout_->face(number);
+    role.way = use.way;
+    role.place = layout_->place(volume, use.before);
+    role.look.w = weight(*f_->config, g_->volume_faces[number].w);
+    return role;
+  }
+
+  void face_span(Line& line, std::uint32_t number, std::uint32_t volume, const Role& role, const SpanToken& s) {
+    const std::uint32_t polygon = g_->volume_faces[number].polygon;
+    before_span(line, polygon, role);
+    writer_.sp(s);
+    if (keeps_origins_) line.origins.shadow.push_back({polygon, volume});
+    line.volume.add(s.xl, s.xr);
   }
 
   void near_edge(const NearEdge& e) {
@@ -384,19 +525,87 @@ class Band {
   void close_volume(std::uint32_t volume) {
     for (int y = y0_; y < y1_; ++y) {
       Line& line = at(y);
-      if (!line.near.empty()) near_cap(line, volume);
-      if (line.volume.none()) continue;
-      if (f_->config->fsf != 0) {
-        if (layout_ == nullptr) {
-          writer_.write_to(line.shadow);
-          writer_.ev(line.volume.from, line.volume.to);
+      if (line.volume.none() && line.near.empty()) continue;
+      std::vector<NearRun>& runs = near_runs_;
+      runs.clear();
+      each_run(line.near, [&](const NearRun& r) {
+        line.volume.add(r.xl, r.xr);
+        runs.push_back(r);
+      });
+      if (effect_) {
+        for (const NearRun& r : runs) effect_->count_all(y - y0_, r.xl, r.xr, r.w);
+        const bool found = !line.volume.none() && effect_->end_volume(y - y0_, line.volume.first, line.volume.end);
+        if (found && span_words_ != nullptr) span_words_->add_volume(volume);
+        if (!found && !line.has_polygon) {
+          line.start_volume();
+          continue;
         }
-        if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
+        for (const FaceSpan& held : line.held) {
+          // Behind the polygons of the volume, which have been written.
+          Role role = face_role(held.face, volume);
+          if (layout_ != nullptr) role.place = layout_->place(volume, layout_->made_of(volume));
+          face_span(line, held.face, volume, role, held.span);
+        }
+        add_before_all(line);
+        join_runs(y);
       }
-      line.sample.add(line.volume.from, line.volume.to);
-      line.open = true;
-      line.volume = {};
+      for (const NearRun& r : runs) near_run(line, volume, r);
+      if (!line.volume.none()) end_volume(line, volume);
+      line.start_volume();
     }
+  }
+
+  template <class Use>
+  void each_run(std::vector<Crossing>& near, Use use) const {
+    std::stable_sort(near.begin(), near.end(), [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+    fill_between(near, g_->width, [&](int xl, int xr, int winding) {
+      const int w = weight(*f_->config, winding);
+      if (w != 0) use(NearRun{xl, xr, w});
+    });
+  }
+
+  /// Spans that lie before all that receives become runs, too: of all together where these are no more than they.
+  void add_before_all(Line& line) {
+    if (line.before_all.empty()) return;
+    const std::size_t apart = near_runs_.size() + line.before_all.size();
+    for (const NearRun& r : line.before_all) {
+      line.near.push_back({r.xl, r.w});
+      line.near.push_back({r.xr, -r.w});
+    }
+    joined_.clear();
+    each_run(line.near, [&](const NearRun& r) { joined_.push_back(r); });
+    if (joined_.size() <= apart)
+      near_runs_.swap(joined_);
+    else
+      near_runs_.insert(near_runs_.end(), line.before_all.begin(), line.before_all.end());
+  }
+
+  /// Runs one after the other that count alike become one where no receiver lies between them.
+  void join_runs(int y) {
+    std::size_t kept = 0;
+    for (std::size_t i = 1; i < near_runs_.size(); ++i) {
+      NearRun& last = near_runs_[kept];
+      const NearRun& next = near_runs_[i];
+      const bool joins = next.w == last.w && next.xl >= last.xr && next.xl - last.xr <= kWidestJoin &&
+                         effect_->nobody_receives(y - y0_, last.xr, next.xl);
+      if (joins)
+        last.xr = next.xr;
+      else
+        near_runs_[++kept] = next;
+    }
+    if (!near_runs_.empty()) near_runs_.resize(kept + 1);
+  }
+
+  void end_volume(Line& line, std::uint32_t volume) {
+    if (f_->config->fsf != 0) {
+      if (layout_ == nullptr) {
+        writer_.write_to(line.shadow);
+        writer_.ev(line.volume.first, line.volume.end);
+      }
+      if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
+    }
+    line.sample.add(line.volume.first, line.volume.end);
+    line.open = true;
   }
 
   void close_sample(std::uint32_t sample) {
@@ -405,31 +614,24 @@ class Band {
       Line& line = at(y);
       if (line.sample.none()) continue;
       writer_.write_to(line.shadow);
-      writer_.es(line.sample.from, line.sample.to, g_->passes.empty() ? g_->sample_light[sample] : 0);
+      writer_.es(line.sample.first, line.sample.end, g_->passes.empty() ? g_->sample_light[sample] : 0);
       line.sample = {};
     }
   }
 
-  void near_cap(Line& line, std::uint32_t volume) {
-    std::stable_sort(line.near.begin(), line.near.end(),
-                     [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
+  void near_run(Line& line, std::uint32_t volume, const NearRun& r) {
     writer_.write_to(line.shadow);
-    fill_between(line.near, g_->width, [&](int xl, int xr, int winding) {
-      const int w = weight(*f_->config, winding);
-      if (w == 0) return;
-      if (layout_ != nullptr) go_to(line, layout_->place(volume, layout_->made_of(volume)));
-      if (xl == 0 && xr == g_->width && layout_ == nullptr)
-        writer_.inside(w);
-      else
-        writer_.nc(xl, xr, w);
-      if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
-      line.volume.add(xl, xr);
-    });
-    line.near.clear();
+    if (layout_ != nullptr) go_to(line, layout_->place(volume, layout_->made_of(volume)));
+    if (r.xl == 0 && r.xr == g_->width && layout_ == nullptr)
+      writer_.inside(r.w);
+    else
+      writer_.nc(r.xl, r.xr, r.w);
+    if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
   }
 
   const FramePlan* f_;
   bool keeps_origins_;
+  SpanWords* span_words_;
   const FrameGeometry* g_;
   const PolygonLayout* layout_;  // at the polygon level
   BandWork work_;
@@ -438,8 +640,14 @@ class Band {
   std::vector<std::uint32_t> words_;
   TokenWriter writer_;
   PolygonSpans spans_;
-  PolygonReport written_;  // spans alone
-  std::vector<Kept> kept_;
+  PolygonReport written_;             // spans alone
+  std::optional<BandEffect> effect_;  // unless all spans are written
+  std::vector<Drawn> drawn_;
+  std::vector<Part> parts_;
+  std::size_t painted_ = 0;          // the pass of their colours
+  std::size_t received_ = kNoLight;  // the light that effect_ has receivers of
+  std::vector<NearRun> near_runs_;   // of the line and the volume at hand
+  std::vector<NearRun> joined_;
   std::array<Line, kBandLines> lines_;
 };
 

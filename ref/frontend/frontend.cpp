@@ -23,7 +23,7 @@ std::vector<LineRange> ranges_of_polygons(const FrameGeometry& g, std::size_t co
   return r;
 }
 
-FramePlan prepare(const FrameGeometry& g, const Config& config) {
+FramePlan prepare(const FrameGeometry& g, const Config& config, bool all_spans) {
   const int bands = (g.height + kBandLines - 1) / kBandLines;
   const auto all = ranges_of_polygons(g, g.polygons.size());
   std::vector<LineRange> faces;
@@ -41,6 +41,7 @@ FramePlan prepare(const FrameGeometry& g, const Config& config) {
   FramePlan f{&g,
               &config,
               std::move(tree),
+              Uses(g, config),
               {},
               {},
               {bands, g.height, std::span(all).first(g.drawn)},
@@ -48,6 +49,7 @@ FramePlan prepare(const FrameGeometry& g, const Config& config) {
               {bands, g.height, edges},
               {bands, g.height, ahead},
               {bands, g.height, fragments},
+              all_spans,
               std::nullopt};
   f.volume_of_face.resize(g.volume_faces.size());
   f.volume_of_edge.resize(g.near_edges.size());
@@ -58,6 +60,58 @@ FramePlan prepare(const FrameGeometry& g, const Config& config) {
   }
   return f;
 }
+
+/// Makes bands on several threads, a few at a time, and hands them on in order: memory holds no more than those.
+class Bands {
+ public:
+  Bands(int height, int threads)
+      : count_((height + kBandLines - 1) / kBandLines), wave_(threads == 1 ? 1 : 8), arena_(threads) {}
+
+  Arena& arena() { return arena_; }
+
+  /// Call take(band) for each, from the top. `made(n)` is the n-th of those that are made side by side.
+  template <class Made, class Take>
+  void make(FramePlan& frame, Made made, Take take) {
+    std::deque<Band> bands;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(wave_); ++i) bands.push_back(made(i));
+    for (int first = 0; first < count_; first += wave_) {
+      const int end = std::min(first + wave_, count_);
+      const auto of = [&](int b) -> Band& { return bands[static_cast<std::size_t>(b - first)]; };
+      for (int b = first; b < end; ++b) {
+        BandWork& work = of(b).work();
+        work.polygons = frame.polygons.next();
+        work.faces = frame.faces.next();
+        work.edges = frame.edges.next();
+        work.tree_edges = frame.tree_edges.next();
+        work.fragments = frame.fragments.next();
+      }
+      if (wave_ == 1)
+        of(first).make(first);
+      else
+        arena_.for_each(tbb::blocked_range<int>(first, end), [&](const tbb::blocked_range<int>& some) {
+          for (int b = some.begin(); b < some.end(); ++b) of(b).make(b);
+        });
+      for (int b = first; b < end; ++b) take(of(b));
+    }
+  }
+
+  /// Finds the words that polygons would take as spans. The frame stays as it is.
+  SpanWords span_words(FramePlan frame) {
+    const SpanWords none(*frame.geometry, frame.uses, *frame.config);
+    std::deque<SpanWords> words(static_cast<std::size_t>(wave_), none);
+    make(
+        frame, [&](std::size_t n) { return Band(frame, false, &words[n]); }, [](const Band&) {});
+    SpanWords all = none;
+    for (const SpanWords& some : words) all += some;
+    all.end();
+    return all;
+  }
+
+ private:
+  int count_;
+  int wave_;
+  Arena arena_;
+};
 
 void check_guard(const FrameGeometry& g) {
   constexpr std::int32_t kLimit = kGuard * 256;
@@ -120,9 +174,13 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
     write_table(g, config, writer);
   else if (config.dsf_bits > 0 && g.passes.empty() && !g.volumes.empty())
     writer.shade(g.shade);
-  FramePlan frame = prepare(g, config);
-  Arena arena(options.threads);
-  if (polygons) frame.layout.emplace(g, config, frame.tree.first_span_polygon(), arena);
+  FramePlan frame = prepare(g, config, options.all_spans);
+  Bands bands(g.height, options.threads);
+  if (polygons) {
+    std::optional<SpanWords> spans;
+    if (!options.all_spans) spans = bands.span_words(frame);
+    frame.layout.emplace(g, config, frame.tree.first_span_polygon(), spans ? &*spans : nullptr, bands.arena());
+  }
   PolygonReport report;
   report.polygons = polygons;
   if (polygons) frame.layout->add_to(report);
@@ -141,34 +199,13 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   }
   pass_on(words);
 
-  const int bands = (g.height + kBandLines - 1) / kBandLines;
-  // A few bands at a time, handed on in order: memory holds no more than those.
-  const int wave = options.threads == 1 ? 1 : 8;
-  std::deque<Band> made;
-  for (int i = 0; i < wave; ++i) made.emplace_back(frame, origins != nullptr);
-  for (int first = 0; first < bands; first += wave) {
-    const int end = std::min(first + wave, bands);
-    const auto of = [&](int b) -> Band& { return made[static_cast<std::size_t>(b - first)]; };
-    for (int b = first; b < end; ++b) {
-      BandWork& work = of(b).work();
-      work.polygons = frame.polygons.next();
-      work.faces = frame.faces.next();
-      work.edges = frame.edges.next();
-      work.tree_edges = frame.tree_edges.next();
-      work.fragments = frame.fragments.next();
-    }
-    if (wave == 1)
-      of(first).make(first);
-    else
-      arena.for_each(tbb::blocked_range<int>(first, end), [&](const tbb::blocked_range<int>& some) {
-        for (int b = some.begin(); b < some.end(); ++b) of(b).make(b);
+  bands.make(
+      frame, [&](std::size_t) { return Band(frame, origins != nullptr); },
+      [&](const Band& band) {
+        if (origins != nullptr) band.add_origins(*origins);
+        if (polygons) band.add_spans(report);
+        pass_on(band.words());
       });
-    for (int b = first; b < end; ++b) {
-      if (origins != nullptr) of(b).add_origins(*origins);
-      if (polygons) of(b).add_spans(report);
-      pass_on(of(b).words());
-    }
-  }
 
   words.clear();
   writer.end();

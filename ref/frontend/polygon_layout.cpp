@@ -26,30 +26,35 @@ class Prices {
     gradients_ = config.smooth != 0 ? config.channels * words(Kind::GRADIENT) : 0;
   }
 
-  /// How many fewer it takes as a polygon than as spans with `ats` ATs.
-  [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span, int ats) const {
+  /// How many fewer it takes as a polygon than as spans of so many words with `ats` ATs.
+  [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span, std::int64_t span_words,
+                                   int ats) const {
     const bool varies = has_color_planes(p) && span != Kind::SP;
     const std::int64_t polygon =
         words(Kind::AT) + words(Kind::POLYGON) + (varies ? gradients_ : 0) + 2 * words(Kind::EDGE);
-    return s.spans * words(span) + ats * words(Kind::AT) - polygon - s.words;
-  }
-  /// The same with an AT on each of its lines, as it needs it where none of its neighbours is spans.
-  [[nodiscard]] std::int64_t saved(const ScreenPolygon& p, const PolygonShape& s, Kind span) const {
-    return saved(p, s, span, s.lines());
+    return span_words + ats * words(Kind::AT) - polygon - s.words;
   }
 
- private:
   [[nodiscard]] std::int64_t words(Kind k) const { return layout_.words[static_cast<std::size_t>(k)]; }
 
+ private:
   Layout layout_;
   std::int64_t gradients_;
 };
 
 PolygonLayout::PolygonLayout(const FrameGeometry& geometry, const Config& config, std::uint32_t first_span_polygon,
-                             Arena& arena)
-    : g_(&geometry), first_opaque_(std::min(first_span_polygon, geometry.drawn)), shapes_(geometry.polygons.size()) {
+                             const SpanWords* words, Arena& arena)
+    : g_(&geometry),
+      words_(words),
+      uses_(geometry, config),
+      first_opaque_(std::min(first_span_polygon, geometry.drawn)),
+      shapes_(geometry.polygons.size()),
+      ways_(uses_.count()),
+      before_(uses_.count()),
+      made_of_(geometry.volumes.size()),
+      counts_(config.count_bits > 0) {
   find_shapes(config, arena);
-  number_uses(config);
+  number_volumes();
   choose(config);
   keep_active(config);
   join_spans(config);
@@ -81,35 +86,15 @@ void PolygonLayout::find_shapes(const Config& config, Arena& arena) {
                  });
 }
 
-void PolygonLayout::number_uses(const Config& config) {
-  counts_ = config.count_bits > 0;
-  first_face_ = g_->drawn;
-  first_translucent_ = first_face_ + (config.dsf_bits > 0 ? g_->volume_faces.size() : 0);
-  if (config.translucency > 0)
-    for (std::uint32_t f = 0; f < g_->fragments.size(); ++f) {
-      first_of_fragment_.push_back(first_translucent_ + fragment_of_.size());
-      fragment_of_.resize(fragment_of_.size() + g_->fragments[f].polygon_count, f);
-    }
-  first_lit_ = first_translucent_ + fragment_of_.size();
-  ways_.resize(first_lit(g_->passes.size()));
-  before_.resize(ways_.size());
-  made_of_.resize(g_->volumes.size());
+void PolygonLayout::number_volumes() {
   number_.resize(g_->volumes.size());
   for (std::size_t v = 1; v < g_->volumes.size(); ++v)
     if (g_->volumes[v].sample == g_->volumes[v - 1].sample) number_[v] = number_[v - 1] + 1;
 }
 
-Kind PolygonLayout::span_of(std::size_t use) const {
-  if (use < first_face_ || use >= first_lit_) return Kind::OP;
-  return use < first_translucent_ ? Kind::SP : Kind::TP;
-}
-
-std::uint32_t PolygonLayout::polygon_of(std::size_t use) const {
-  if (use < first_face_) return static_cast<std::uint32_t>(use);
-  if (use < first_translucent_) return g_->volume_faces[use - first_face_].polygon;
-  if (use >= first_lit_) return static_cast<std::uint32_t>((use - first_lit_) % g_->drawn);
-  const std::uint32_t fragment = fragment_of_[use - first_translucent_];
-  return g_->fragments[fragment].first_polygon + static_cast<std::uint32_t>(use - first_of_fragment_[fragment]);
+std::int64_t PolygonLayout::span_words(const Prices& prices, std::size_t use) const {
+  if (words_ != nullptr) return words_->of(use);
+  return shapes_[uses_.polygon_of(use)].spans * prices.words(uses_.span_of(use));
 }
 
 void PolygonLayout::choose(const Config& config) {
@@ -118,18 +103,21 @@ void PolygonLayout::choose(const Config& config) {
 }
 
 PolygonWay PolygonLayout::choice(const Config& config, const Prices& prices, std::size_t use) const {
-  const std::uint32_t polygon = polygon_of(use);
+  const std::uint32_t polygon = uses_.polygon_of(use);
   const PolygonShape& s = shapes_[polygon];
-  const Kind span = span_of(use);
+  const Kind span = uses_.span_of(use);
   if (s.spans == 0 || (span == Kind::OP && use < first_opaque_)) return kUnseen;
-  if (span == Kind::SP && weight(config, g_->volume_faces[use - first_face_].w) == 0) return kUnseen;
+  if (span == Kind::SP && weight(config, g_->volume_faces[use - uses_.first_face()].w) == 0) return kUnseen;
+  if (words_ != nullptr && words_->of(use) == 0) return kUnseen;
   if (span == Kind::TP) {
-    const ScreenFragment& f = g_->fragments[fragment_of_[use - first_translucent_]];
+    const ScreenFragment& f = uses_.fragment_of(use);
     if (f.cut_count > 0 || s.first < f.first_line || s.last >= f.end_line) return PolygonWay::cut;
   }
   const PolygonWay way = span == Kind::SP ? s.as_face : s.as_drawn;
   if (way != PolygonWay::polygon) return way;
-  return prices.saved(g_->polygons[polygon], s, span) > 0 ? way : PolygonWay::words;
+  // Spans take an AT on each line where none of its neighbours is spans.
+  const bool saves = prices.saved(g_->polygons[polygon], s, span, span_words(prices, use), s.lines()) > 0;
+  return saves ? way : PolygonWay::words;
 }
 
 namespace {
@@ -197,7 +185,7 @@ void PolygonLayout::keep_active(const Config& config) {
   const auto end_of = [this](const PolygonShape& s) { return std::min<int>(s.end, g_->height); };
   const auto each_made = [this](auto made) {
     for (std::size_t i = 0; i < ways_.size(); ++i)
-      if (ways_[i] == PolygonWay::polygon) made(static_cast<std::uint32_t>(i), shapes_[polygon_of(i)]);
+      if (ways_[i] == PolygonWay::polygon) made(static_cast<std::uint32_t>(i), shapes_[uses_.polygon_of(i)]);
   };
   Crowd crowd(g_->height, config.active);
   std::vector<std::uint32_t> start(static_cast<std::size_t>(g_->height) + 1, 0);  // in uses, by first line
@@ -217,9 +205,11 @@ void PolygonLayout::keep_active(const Config& config) {
   for (int y = 0; y < g_->height; ++y) {
     std::erase_if(active, [y](const Active& a) { return a.end <= y; });
     for (std::uint32_t i = start[static_cast<std::size_t>(y)]; i < start[static_cast<std::size_t>(y) + 1]; ++i) {
-      const std::uint32_t polygon = polygon_of(uses[i]);
+      const std::uint32_t polygon = uses_.polygon_of(uses[i]);
       const PolygonShape& s = shapes_[polygon];
-      active.push_back({uses[i], end_of(s), prices.saved(g_->polygons[polygon], s, span_of(uses[i])), 0});
+      const std::int64_t saved =
+          prices.saved(g_->polygons[polygon], s, uses_.span_of(uses[i]), span_words(prices, uses[i]), s.lines());
+      active.push_back({uses[i], end_of(s), saved, 0});
     }
     if (static_cast<int>(active.size()) <= config.active) continue;
     crowd.relieve(y, active);
@@ -239,12 +229,11 @@ void PolygonLayout::keep_active(const Config& config) {
 
 template <class Each>
 void PolygonLayout::each_order(Each order) const {
-  order(std::size_t{0}, first_face_);
-  if (first_translucent_ > first_face_)
-    for (const ShadowVolume& v : g_->volumes)
-      order(first_face_ + v.first_face, first_face_ + v.first_face + v.face_count);
-  order(first_translucent_, first_lit_);
-  for (std::size_t l = 0; l < g_->passes.size(); ++l) order(first_lit(l), first_lit(l + 1));
+  order(std::size_t{0}, uses_.first_face());
+  if (uses_.has_faces())
+    for (const ShadowVolume& v : g_->volumes) order(uses_.face(v.first_face), uses_.face(v.first_face + v.face_count));
+  order(uses_.first_translucent(), uses_.first_lit());
+  for (std::size_t l = 0; l < g_->passes.size(); ++l) order(uses_.lit(l, 0), uses_.lit(l + 1, 0));
 }
 
 // Spans that stand between the same two polygons share the AT of a line, and a polygon parts those before it from those
@@ -254,7 +243,7 @@ void PolygonLayout::join_spans(const Config& config) {
   each_order([&](std::size_t first, std::size_t end) {
     LineRange before;  // lines of the spans right before the polygon at hand, and what lies between them
     for (std::size_t i = first; i < end; ++i) {
-      const PolygonShape& s = shapes_[polygon_of(i)];
+      const PolygonShape& s = shapes_[uses_.polygon_of(i)];
       if (ways_[i] == kUnseen) continue;
       const LineRange here{s.first, s.last + 1};
       if (ways_[i] != PolygonWay::polygon) {
@@ -263,10 +252,12 @@ void PolygonLayout::join_spans(const Config& config) {
       }
       LineRange behind;
       for (std::size_t k = i + 1; k < end && ways_[k] != PolygonWay::polygon; ++k)
-        if (ways_[k] != kUnseen) behind = hull(behind, {shapes_[polygon_of(k)].first, shapes_[polygon_of(k)].last + 1});
+        if (ways_[k] != kUnseen)
+          behind = hull(behind, {shapes_[uses_.polygon_of(k)].first, shapes_[uses_.polygon_of(k)].last + 1});
       const LineRange all = hull(hull(before, here), behind);
       const int ats = std::min(pixels_in(all) - pixels_in(before) - pixels_in(behind), s.lines());
-      const bool joins = prices.saved(g_->polygons[polygon_of(i)], s, span_of(i), ats) <= 0;
+      const bool joins =
+          prices.saved(g_->polygons[uses_.polygon_of(i)], s, uses_.span_of(i), span_words(prices, i), ats) <= 0;
       if (joins) ways_[i] = PolygonWay::words;
       before = joins ? hull(before, here) : LineRange{};
     }
@@ -284,12 +275,12 @@ void PolygonLayout::count() {
     return made;
   };
   constexpr std::uint32_t kAny = std::numeric_limits<std::uint32_t>::max();
-  count_some(0, first_face_, kAny);
-  count_some(first_translucent_, first_lit_, kAny);
-  for (std::size_t l = 0; l < g_->passes.size(); ++l) count_some(first_lit(l), first_lit(l + 1), kMostRank);
-  if (first_translucent_ == first_face_) return;
+  count_some(0, uses_.first_face(), kAny);
+  count_some(uses_.first_translucent(), uses_.first_lit(), kAny);
+  for (std::size_t l = 0; l < g_->passes.size(); ++l) count_some(uses_.lit(l, 0), uses_.lit(l + 1, 0), kMostRank);
+  if (!uses_.has_faces()) return;
   for (std::size_t v = 0; v < g_->volumes.size(); ++v) {
-    const std::size_t first = first_face_ + g_->volumes[v].first_face;
+    const std::size_t first = uses_.face(g_->volumes[v].first_face);
     made_of_[v] = count_some(first, first + g_->volumes[v].face_count, kMostRank);
   }
 }
@@ -320,7 +311,7 @@ void PolygonLayout::add_to(PolygonReport& report) const {
   report.active = active_;
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (ways_[i] == kUnseen) continue;
-    const PolygonShape& s = shapes_[polygon_of(i)];
+    const PolygonShape& s = shapes_[uses_.polygon_of(i)];
     auto& of = report.ways[static_cast<std::size_t>(ways_[i])];
     const bool tall = s.lines() >= kTallLines;
     ++of.polygons;

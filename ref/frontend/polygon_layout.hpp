@@ -9,6 +9,7 @@
 
 #include "arena/arena.hpp"
 #include "frontend/polygon_shape.hpp"
+#include "frontend/uses.hpp"
 #include "kage/frontend.hpp"
 #include "kage/geometry.hpp"
 #include "polygon/place.hpp"
@@ -33,20 +34,22 @@ class PolygonLayout {
     [[nodiscard]] bool made() const { return way == PolygonWay::polygon; }
   };
 
-  /// Drawn polygons before `first_span_polygon` go by segments.
-  PolygonLayout(const FrameGeometry& geometry, const Config& config, std::uint32_t first_span_polygon, Arena& arena);
+  /// Drawn polygons before `first_span_polygon` go by segments. With `words` those without effect go no way; nullptr:
+  /// all are to go.
+  PolygonLayout(const FrameGeometry& geometry, const Config& config, std::uint32_t first_span_polygon,
+                const SpanWords* words, Arena& arena);
 
   /// Whether places can count the frame's samples and volumes.
   static bool fits(const FrameGeometry& geometry);
 
-  [[nodiscard]] Use opaque(std::size_t polygon) const { return use(polygon); }
-  [[nodiscard]] Use face(std::size_t volume_face) const { return use(first_face_ + volume_face); }
+  [[nodiscard]] Use opaque(std::size_t polygon) const { return use(Uses::drawn(polygon)); }
+  [[nodiscard]] Use face(std::size_t volume_face) const { return use(uses_.face(volume_face)); }
   /// The n-th polygon of a fragment.
   [[nodiscard]] Use translucent(std::size_t fragment, std::uint32_t n) const {
-    return use(first_of_fragment_[fragment] + n);
+    return use(uses_.translucent(fragment, n));
   }
   /// With linear light, in the pass of a light.
-  [[nodiscard]] Use lit(std::size_t light, std::size_t polygon) const { return use(first_lit(light) + polygon); }
+  [[nodiscard]] Use lit(std::size_t light, std::size_t polygon) const { return use(uses_.lit(light, polygon)); }
   [[nodiscard]] const PolygonShape& shape(std::size_t polygon) const { return shapes_[polygon]; }
 
   /// The place of what stands between two faces of a volume: `before` of it go as such before it.
@@ -61,12 +64,10 @@ class PolygonLayout {
 
  private:
   [[nodiscard]] Use use(std::size_t i) const { return {ways_[i], before_[i]}; }
-  [[nodiscard]] std::size_t first_lit(std::size_t light) const { return first_lit_ + light * g_->drawn; }
-  [[nodiscard]] Kind span_of(std::size_t use) const;
-  [[nodiscard]] std::uint32_t polygon_of(std::size_t use) const;
+  [[nodiscard]] std::int64_t span_words(const Prices& prices, std::size_t use) const;
 
   void find_shapes(const Config& config, Arena& arena);
-  void number_uses(const Config& config);
+  void number_volumes();
   void choose(const Config& config);
   [[nodiscard]] PolygonWay choice(const Config& config, const Prices& prices, std::size_t use) const;
   void keep_active(const Config& config);
@@ -78,19 +79,14 @@ class PolygonLayout {
   void each_order(Each order) const;
 
   const FrameGeometry* g_;
+  const SpanWords* words_;
+  Uses uses_;
   std::uint32_t first_opaque_;
   std::vector<PolygonShape> shapes_;
-  // By number of the use: first drawn polygons, then faces of volumes, then polygons of fragments, then drawn polygons
-  // once more for each light.
-  std::vector<PolygonWay> ways_;
-  std::vector<std::uint32_t> before_;
-  std::size_t first_face_ = 0;
-  std::size_t first_translucent_ = 0;
-  std::size_t first_lit_ = 0;
-  std::vector<std::size_t> first_of_fragment_;
-  std::vector<std::uint32_t> fragment_of_;  // from first_translucent_ on
-  std::vector<std::uint32_t> made_of_;      // of each volume
-  std::vector<std::uint32_t> number_;       // of each volume in its sample
+  std::vector<PolygonWay> ways_;        // by number of the use
+  std::vector<std::uint32_t> before_;   // likewise
+  std::vector<std::uint32_t> made_of_;  // of each volume
+  std::vector<std::uint32_t> number_;   // of each volume in its sample
   int active_ = 0;
   bool counts_ = false;  // RESOLVE tells a light's samples
 };

@@ -85,7 +85,8 @@ TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts
                 .report = &parts.polyhedra,
                 .origins = origins,
                 .level = options_.level,
-                .polygons = &parts.polygons});
+                .polygons = &parts.polygons,
+                .all_spans = options_.all_spans});
   } catch (const TooManyFragments& e) {
     throw TooManyFragments(e.limit(), where);
   } catch (const Error& e) {

@@ -57,6 +57,7 @@ struct DrawOptions {
   OrderBuildOptions order = {};  ///< of translucent faces
   int threads = 0;               ///< 0: one per processor. The words do not depend on it
   Level level = Level::spans;    ///< FrameOptions::level: with polygons, the configuration has ACTIVE > 0
+  bool all_spans = true;         ///< FrameOptions::all_spans
   std::string name = {};         ///< what messages call the scene; empty: Scene::name()
 };
 

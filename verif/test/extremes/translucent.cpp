@@ -2,7 +2,7 @@
 // Translucent faces on the screen: fragments part their faces exactly, and every pixel's layers come back to front.
 #include <algorithm>
 
-#include "core/span_kernels.hpp"
+#include "kernels/span_kernels.hpp"
 #include "oracle/face_pixels.hpp"
 #include "oracle/layer_truth.hpp"
 #include "oracle/simple_core.hpp"

@@ -18,7 +18,6 @@
 #include <vector>
 
 #include "core/pixel_line.hpp"
-#include "core/span_kernels.hpp"
 #include "frontend/edge_walker.hpp"
 #include "frontend/span_setup.hpp"
 #include "kernels/compare_cell.hpp"
@@ -28,6 +27,7 @@
 #include "kernels/pixel_next.hpp"
 #include "kernels/plane_step.hpp"
 #include "kernels/segment_make.hpp"
+#include "kernels/span_kernels.hpp"
 #include "kernels/span_setup.hpp"
 #include "number/int128.hpp"
 

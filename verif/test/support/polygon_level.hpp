@@ -23,6 +23,55 @@ inline std::vector<std::uint32_t> expanded(const Config& c, std::span<const std:
   return span_frame(c, words).value_or(std::vector<std::uint32_t>{});
 }
 
+/// The lines of a frame as the golden core draws it, and what is wrong with it.
+struct Drawn {
+  std::vector<std::uint8_t> pixels;
+  std::string fault;
+};
+inline Drawn drawn(const Config& c, std::span<const std::uint32_t> words) {
+  Drawn d;
+  GoldenCore core(c);
+  const FrameStatus status = core.frame(words, [&](int, std::span<const std::uint8_t> line) {
+    d.pixels.insert(d.pixels.end(), line.begin(), line.end());
+  });
+  if (status.error != ErrorCode::NONE) d.fault = describe(status);
+  return d;
+}
+
+/// Compares a frame without tokens that have no effect, at both levels that the configuration has, with the same with
+/// all spans. Says what is wrong; empty: nothing.
+inline std::string effect_fault(const FrameGeometry& g, const Config& c, std::span<const std::uint32_t> all_spans) {
+  const Drawn with = drawn(c, all_spans);
+  for (const Level level : {Level::spans, Level::polygons}) {
+    if (level == Level::polygons && c.active == 0) continue;
+    const std::string at = level == Level::spans ? "at the span level" : "at the polygon level";
+    std::vector<std::uint32_t> words;
+    FrameOrigins origins;
+    make_frame(g, c, 7, words, {.threads = 1, .level = level, .all_spans = false});
+    std::vector<std::uint32_t> threaded;
+    make_frame(g, c, 7, threaded, {.threads = 3, .origins = &origins, .level = level, .all_spans = false});
+    if (threaded != words) return "words depend on threads or origins " + at;
+    std::vector<std::uint32_t> spans = words;
+    try {
+      check_frame(c, words, at, 0);
+      if (level == Level::polygons) spans = expanded(c, words);
+      check_frame(c, spans, at, 0);
+    } catch (const std::exception& e) {
+      return e.what();
+    }
+    const Drawn without = drawn(c, words);
+    if (!without.fault.empty()) return without.fault + " " + at;
+    if (without.pixels != with.pixels) return "spans without effect have one " + at;
+    const TokenCounts counts = count_tokens(c, spans);
+    const auto of = [&](Kind k) { return counts.of_kind[static_cast<std::size_t>(k)]; };
+    if (origins.opaque.size() != of(Kind::OP) || origins.translucent.size() != of(Kind::TP) ||
+        origins.shadow.size() != of(Kind::SP) + of(Kind::NC) + of(Kind::IF) + of(Kind::EV))
+      return "origins are of other spans " + at;
+    if (level == Level::spans && words.size() > all_spans.size()) return "fewer tokens are more words";
+  }
+  return {};
+}
+
 /// A frame at both levels.
 struct BothLevels {
   std::vector<std::uint32_t> spans;
@@ -61,21 +110,16 @@ inline BothLevels both_levels(const FrameGeometry& g, const Config& c) {
   if (!same(of_spans.opaque, of_polygons.opaque) || !same(of_spans.shadow, of_polygons.shadow) ||
       !same(of_spans.translucent, of_polygons.translucent))
     both.fault = "origins differ";
-  const auto draw = [&](std::span<const std::uint32_t> words) {
-    std::vector<std::uint8_t> pixels;
-    GoldenCore core(c);
-    const FrameStatus status = core.frame(
-        words, [&](int, std::span<const std::uint8_t> line) { pixels.insert(pixels.end(), line.begin(), line.end()); });
-    if (status.error != ErrorCode::NONE) both.fault = describe(status);
-    return pixels;
-  };
-  if (draw(both.spans) != draw(both.polygons)) both.fault = "pixels differ";
+  const Drawn of_level = drawn(c, both.polygons);
+  if (!of_level.fault.empty()) both.fault = of_level.fault;
+  if (drawn(c, both.spans).pixels != of_level.pixels) both.fault = "pixels differ";
   if (both.counts.made != both.report.made().spans || both.report.words != both.polygons.size())
     both.fault = "the report counts otherwise";
   std::uint64_t spans = 0;
   for (const Kind k : {Kind::OP, Kind::SP, Kind::TP})
     spans += count_tokens(c, both.spans).of_kind[static_cast<std::size_t>(k)];
   if (both.report.all().spans != spans) both.fault = "the report misses spans";
+  if (both.fault.empty()) both.fault = effect_fault(g, c, both.spans);
   return both;
 }
 

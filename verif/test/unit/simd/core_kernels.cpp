@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/span_kernels.hpp"
+#include "kernels/span_kernels.hpp"
 #include "stimulus/random.hpp"
 #include "test/support/catch.hpp"
 #include "test/support/guarded.hpp"
@@ -155,6 +155,58 @@ TEST_CASE("shadow spans, ends of volumes, ends of samples") {
     }
     span_es(count, given.attr.data(), given.sum.data(), bias, mask, most);
     REQUIRE(given == expected);
+  });
+}
+
+TEST_CASE("spans before a line's depths, and what they count there") {
+  Random random(test_seed(5));
+  CAPTURE(test_seed(5));
+  sweep([&](int count, Edge edge) {
+    const DepthRamp depths = random_depths(random);
+    const auto weight = static_cast<std::uint8_t>(random.in(-2, 2));
+    const std::uint8_t mask = random.chance(0.5) ? 1 : 255;
+    Pixels given(random, count, edge);
+    for (int k = 0; k < count; ++k)
+      if (random.chance(0.3)) given.zb[static_cast<std::size_t>(k)] = 0;
+    const std::size_t size = static_cast<std::size_t>(count) + kKernelSlack;
+    Guarded<std::uint8_t> dsf(size, edge);
+    Guarded<std::uint8_t> flags(size, edge);
+    for (std::size_t i = 0; i < size; ++i) {
+      dsf[i] = static_cast<std::uint8_t>(random.chance(0.5) ? 0 : random.in(0, 255));
+      flags[i] = static_cast<std::uint8_t>(random.in(0, 1));
+    }
+    Guarded<std::uint8_t> counted(dsf.values(), edge);
+    Guarded<std::uint8_t> flagged(flags.values(), edge);
+    Pixels expected(given, edge);
+    PixelRange before;
+    bool all = true;
+    bool found = false;
+    for (int k = 0; k < count; ++k) {
+      const auto i = static_cast<std::size_t>(k);
+      const bool nearer = depth_at(depths, k) < given.zb[i];
+      if (nearer) before.add(k, k + 1);
+      all &= nearer || given.zb[i] == 0;
+      counted[i] = static_cast<std::uint8_t>(counted[i] + (nearer ? weight : 0));
+    }
+    const PixelRange alone = span_before(depths, count, given.zb.data());
+    const Before got = span_count(depths, count, given.zb.data(), dsf.data(), weight);
+    REQUIRE(alone.first == before.first);
+    REQUIRE(alone.end == before.end);
+    REQUIRE(got.pixels.first == before.first);
+    REQUIRE(got.pixels.end == before.end);
+    REQUIRE(got.all == all);
+    REQUIRE(given == expected);
+    REQUIRE(dsf == counted);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const bool inside = given.zb[i] != 0 && (counted[i] & mask) != 0;
+      found |= inside && flagged[i] == 0;
+      if (inside) flagged[i] = 1;
+      counted[i] = 0;
+    }
+    REQUIRE(span_flag(count, given.zb.data(), dsf.data(), flags.data(), mask) == found);
+    REQUIRE(given == expected);
+    REQUIRE(dsf == counted);
+    REQUIRE(flags == flagged);
   });
 }
 

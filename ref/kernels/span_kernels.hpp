@@ -7,6 +7,9 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "contract/derived.hpp"
+#include "kage/token.hpp"
+
 namespace kage {
 
 /// Depth along a span: acc = z + k * dz, both pre-shifted left so that the top bit of the accumulator is bit 63.
@@ -18,6 +21,14 @@ struct DepthRamp {
   int shift;
   std::int32_t z_max;
 };
+
+/// The ramp of a span's depth.
+inline DepthRamp depth_ramp(const Config& c, const SpanToken& s) {
+  const int spare = 64 - derived::depth_bits(c);
+  return {static_cast<std::int64_t>(static_cast<std::uint64_t>(s.z) << spare),
+          static_cast<std::int64_t>(static_cast<std::uint64_t>(s.dz) << spare), 30 - c.z_bits,
+          static_cast<std::int32_t>(derived::most_depth(c))};
+}
 
 /// One channel along a span, pre-shifted so that the accumulator's top bit is bit 31: value = clamp(acc >> 22, 0, 255).
 struct ColorRamp {
@@ -55,6 +66,34 @@ void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_
 /// Where Z < zb: each channel of attr = round((old * (255 - alpha) + new * alpha) / 255). Depth stays.
 void span_tp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha);
+
+/// Pixels of a span, from the first to one past the last; none if both are equal.
+struct PixelRange {
+  int first = 0;
+  int end = 0;
+
+  [[nodiscard]] bool none() const { return first == end; }
+  void add(int from, int to) {
+    first = none() || from < first ? from : first;
+    end = to > end ? to : end;
+  }
+};
+
+/// Pixels of a span, from its first, that lie before a line's depths.
+struct Before {
+  PixelRange pixels;  ///< where Z < zb, from the first to the last
+  bool all = true;    ///< everywhere in the span but where zb is 0
+};
+
+/// Pixels where Z < zb, from the first to the last.
+PixelRange span_before(const DepthRamp& ramp, int count, const std::int32_t* zb);
+
+/// Where Z < zb: dsf += w, modulo 256.
+Before span_count(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint8_t* dsf, std::uint8_t w);
+
+/// Where (dsf & mask) != 0 and zb is not 0: flag = 1; dsf = 0.
+/// @return whether a flag was 0 before
+bool span_flag(int count, const std::int32_t* zb, std::uint8_t* dsf, std::uint8_t* flag, std::uint8_t mask);
 
 /// The bytes of a line's pixels, `channels` each, lowest first: those of `value`, or, where zb == clear, of
 /// `background`.

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/span_kernels.hpp"
+#include "kernels/span_kernels.hpp"
+
+#include <array>
+#include <bit>
 
 #include "simd/targets.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/span_kernels.cpp"
+#define HWY_TARGET_INCLUDE "kernels/span_kernels.cpp"
 #include <hwy/foreach_target.h>
 // foreach_target.h must come first.
 #include <hwy/highway.h>
@@ -174,6 +177,67 @@ void Es(int count, std::uint32_t* HWY_RESTRICT flag, std::uint32_t* HWY_RESTRICT
   }
 }
 
+// The pixels from `x` on that a mask has, which has some.
+HWY_INLINE void add_lanes(PixelRange& pixels, int x, hn::Mask<D32> mask) {
+  std::array<std::uint8_t, 8> bytes{};
+  hn::StoreMaskBits(D32(), mask, bytes.data());
+  const auto bits = std::bit_cast<std::uint64_t>(bytes);
+  pixels.add(x + std::countr_zero(bits), x + static_cast<int>(std::bit_width(bits)));
+}
+
+PixelRange InFront(const DepthRamp& ramp, int count, const std::int32_t* HWY_RESTRICT zb) {
+  const D32 d;
+  Depths depths(ramp);
+  const int n = static_cast<int>(hn::Lanes(d));
+  PixelRange pixels;
+  for (int x = 0; x < count; x += n) {
+    const auto nearer = hn::And(lanes_left(x, count), hn::Lt(depths.next(), hn::LoadU(d, zb + x)));
+    if (hn::AllFalse(d, nearer)) continue;
+    add_lanes(pixels, x, nearer);
+  }
+  return pixels;
+}
+
+Before Count(const DepthRamp& ramp, int count, const std::int32_t* HWY_RESTRICT zb, std::uint8_t* HWY_RESTRICT dsf,
+             std::uint8_t w) {
+  const D32 d;
+  const hn::Rebind<std::uint8_t, D32> d8;
+  Depths depths(ramp);
+  const auto v = hn::Set(d, w);
+  const int n = static_cast<int>(hn::Lanes(d));
+  Before before;
+  for (int x = 0; x < count; x += n) {
+    const auto at = hn::LoadU(d, zb + x);
+    const auto in = hn::And(lanes_left(x, count), hn::Gt(at, hn::Zero(d)));
+    const auto nearer = hn::And(in, hn::Lt(depths.next(), at));
+    before.all &= hn::AllFalse(d, hn::AndNot(nearer, in));
+    if (hn::AllFalse(d, nearer)) continue;
+    add_lanes(before.pixels, x, nearer);
+    const auto more = hn::DemoteTo(d8, hn::IfThenElseZero(nearer, v));
+    hn::StoreU(hn::Add(hn::LoadU(d8, dsf + x), more), d8, dsf + x);
+  }
+  return before;
+}
+
+bool Flag(int count, const std::int32_t* HWY_RESTRICT zb, std::uint8_t* HWY_RESTRICT dsf,
+          std::uint8_t* HWY_RESTRICT flag, std::uint8_t mask) {
+  const D32 d;
+  const hn::Rebind<std::uint8_t, D32> d8;
+  const auto m = hn::Set(d, mask);
+  const auto zero = hn::Zero(d);
+  const int n = static_cast<int>(hn::Lanes(d));
+  bool found = false;
+  for (int x = 0; x < count; x += n) {
+    const auto in = hn::And(lanes_left(x, count), hn::Gt(hn::LoadU(d, zb + x), zero));
+    const auto inside = hn::And(in, hn::Ne(hn::And(hn::PromoteTo(d, hn::LoadU(d8, dsf + x)), m), zero));
+    const auto old = hn::PromoteTo(d, hn::LoadU(d8, flag + x));
+    found = found || !hn::AllFalse(d, hn::And(inside, hn::Eq(old, zero)));
+    hn::StoreU(hn::DemoteTo(d8, hn::IfThenElse(inside, hn::Set(d, 1), old)), d8, flag + x);
+  }
+  for (int x = 0; x < count; ++x) dsf[x] = 0;
+  return found;
+}
+
 // The old channel from bit `at` of attr, and the new value, blended into the same place.
 HWY_INLINE hn::Vec<DU32> blend(hn::Vec<DU32> attr, int at, hn::Vec<DU32> value, hn::Vec<D32> alpha) {
   const D32 d;
@@ -245,6 +309,9 @@ HWY_EXPORT(Sp);
 HWY_EXPORT(Ev);
 HWY_EXPORT(Es);
 HWY_EXPORT(Tp);
+HWY_EXPORT(InFront);
+HWY_EXPORT(Count);
+HWY_EXPORT(Flag);
 HWY_EXPORT(Bytes);
 
 void span_op_flat(const DepthRamp& ramp, int count, std::int32_t* zb, std::uint32_t* attr, std::uint32_t value,
@@ -268,6 +335,15 @@ void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_
 void span_tp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha) {
   KAGE_DISPATCH(Tp)(ramp, count, zb, attr, color, channels, alpha);
+}
+PixelRange span_before(const DepthRamp& ramp, int count, const std::int32_t* zb) {
+  return KAGE_DISPATCH(InFront)(ramp, count, zb);
+}
+Before span_count(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint8_t* dsf, std::uint8_t w) {
+  return KAGE_DISPATCH(Count)(ramp, count, zb, dsf, w);
+}
+bool span_flag(int count, const std::int32_t* zb, std::uint8_t* dsf, std::uint8_t* flag, std::uint8_t mask) {
+  return KAGE_DISPATCH(Flag)(count, zb, dsf, flag, mask);
 }
 void line_bytes(int count, const std::int32_t* zb, const std::uint32_t* value, std::int32_t clear,
                 std::uint32_t background, int channels, std::uint8_t* out) {
