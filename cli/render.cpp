@@ -28,7 +28,13 @@ namespace {
 struct RenderCommand : Options {
   bool exr = false;
   bool error_map = false;
+  bool through_words = false;
 };
+
+std::string words_text(const TokenCounts& counts) {
+  return fmt::format(", {} over {}{}", counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
+                     and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]));
+}
 
 int run(const RenderCommand& o) {
   const OutFolder folder(o.out);
@@ -41,8 +47,8 @@ int run(const RenderCommand& o) {
   cosim::Source source(o, terminal());
   std::optional<explore::ErrorMaps> errors;
   if (o.error_map) errors.emplace(o, source, terminal());
-  Renderer renderer(source);
-  TokenCounts counts;
+  Renderer renderer(source, o.through_words);
+  std::optional<TokenCounts> counts;  // of frames that were drawn by words
   TempFiles files;
   Json names = Json::array();
   cosim::Size size;
@@ -55,14 +61,17 @@ int run(const RenderCommand& o) {
         std::filesystem::path(o.out) / fmt::format("{}_{:04}.{}", source.name(), i, o.exr ? "exr" : "png");
     FramePicture picture(path);
     const FrameStatus status = renderer.frame(
-        i, [&](int, std::span<const std::uint8_t> pixels) { picture.line(pixels); },
-        [&](std::span<const std::uint32_t> words) {
+        i, [&](int width, int height) { picture.size(width, height); },
+        [&](int, std::span<const std::uint8_t> pixels) {
           check_interrupt();
           frame_progress.wait();
-          picture.words(words);
+          picture.line(pixels);
         });
     if (status.error != ErrorCode::NONE) throw Error(fmt::format("{}: frame {}: {}", o.input, i, describe(status)));
-    counts += renderer.counts();
+    if (renderer.counts()) {
+      if (!counts) counts.emplace();
+      *counts += *renderer.counts();
+    }
     size = {status.width, status.height};
     picture.close();
     picture.hand_over(files);
@@ -75,8 +84,9 @@ int run(const RenderCommand& o) {
   j["frames"] = source.frames();
   j["width"] = size.width;
   j["height"] = size.height;
-  j["spans"] = counts.spans;
-  j["span_pixels"] = counts.span_pixels;
+  j["through_words"] = counts.has_value();
+  j["spans"] = counts ? Json(counts->spans) : Json(nullptr);
+  j["span_pixels"] = counts ? Json(counts->span_pixels) : Json(nullptr);
   j["golden_seconds"] = renderer.seconds();
   j["config"] = cli::to_json(source.config());
   j["degraded"] = source.degraded();
@@ -85,9 +95,8 @@ int run(const RenderCommand& o) {
   j["notes"] = source.notes();
   finish(o.json, {"kage.render/1", j}, files,
          notes_text(source) + (errors ? errors->text() : "") +
-             fmt::format("{}, {}x{}, {} over {}{}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
-                         counted(counts.spans, "span"), counted(counts.span_pixels, "pixel"),
-                         and_segments(counts.of_kind[static_cast<std::size_t>(Kind::SEG)]), shown(o.out)));
+             fmt::format("{}, {}x{}{}: {}\n", counted(source.frames(), "frame"), size.width, size.height,
+                         counts ? words_text(*counts) : "", shown(o.out)));
   if (json_only(o.json)) print_notes(source, o.json);
   return kSame;
 }
@@ -111,6 +120,9 @@ void add_render(Program& program, Action& action) {
       "show what is wrong in each picture of a scene, by the exact oracle and the finest picture: NAME_error.png; "
       "NAME_error_SOURCE.png for each source of error alone; NAME_error_light.png, by each light worked out at the "
       "pixel; docs/sweep.md has the colours");
+  c.add_flag("--through-words", o->through_words,
+             "draw by the words of docs/stream.md and the golden core, as the RTL is held against it; else pictures of "
+             "scenes come straight from geometry, which gives the same bits (docs/architecture.md)");
   options_of_frames(c, *o);
   option_json(c, o->json);
   c.callback([o, &action] { action = [o] { return run(*o); }; });

@@ -28,7 +28,8 @@ BELOW = {
     "geometry": ["shadow", "contract"],
     "frontend": ["geometry", "arena", "polygon", "kernels"],
     "image": ["file", "plugin", "number"],
-    "pipeline": ["frontend", "stream", "core", "cost", "image"],
+    "direct": ["frontend", "core"],
+    "pipeline": ["frontend", "direct", "stream", "core", "cost", "image"],
     "plan": ["pipeline", "cost"],
 }
 MODEL = [*BELOW, "kage"]

@@ -211,7 +211,6 @@ void TokenWriter::token(const Token& token) {
 void decode(const Config& config, const Layout& layout, std::span<const std::uint32_t> words, Token& t, Level level) {
   t.kind = kind_of(words[0], level);
   BitUnpacker in(words);
-  static_cast<void>(in.take(kKindField));
   with_kind(t.kind, [&]<Kind K>() {
     visit_fields<K>(config, layout, t, [&in](const char*, int, auto& value, Field f) {
       value = static_cast<std::remove_reference_t<decltype(value)>>(in.take(f));

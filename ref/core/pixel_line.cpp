@@ -177,17 +177,10 @@ void PixelLine::resolve(int samples) {
 }
 
 void PixelLine::resolve_flags() {
-  const std::uint32_t keep = derived::whole_share(config_) - shade_;
-  const std::uint32_t half = derived::half_share(config_);
-  const std::int32_t clear = clear_depth(config_);
-  for (std::size_t x = 0; x < static_cast<std::size_t>(width_); ++x) {
-    const std::uint32_t a = attr_[x];
-    if (!in_shadow(x, bias_) || (a & kLit) == 0 || zb_[x] == clear) continue;
-    std::uint32_t darkened = 0;
-    for (unsigned at = 0; at < kPackedBits; at += 8)
-      darkened |= (((a >> at & 255U) * keep + half) >> config_.shade_frac) << at;
-    attr_[x] = darkened | kLit;
-  }
+  const Darkening darkening{derived::whole_share(config_) - shade_, derived::half_share(config_), config_.shade_frac};
+  const bool by_fsf = config_.fsf != 0;
+  span_resolve(width_, zb_.data(), clear_depth(config_), by_fsf ? fsf_.data() : dsf_.data(), by_fsf ? 0 : bias_,
+               by_fsf ? 1 : dsf_mask_, attr_.data(), darkening);
 }
 
 void PixelLine::resolve_counts() {

@@ -38,6 +38,10 @@ class PixelLine {
   void resolve(int samples = 0);
   void tp(const SpanToken& s);  ///< where Z < ZB: colour is blended
 
+  /// Depths of the line's pixels.
+  [[nodiscard]] std::span<const std::int32_t> depths() const {
+    return std::span(zb_).first(static_cast<std::size_t>(width_));
+  }
   [[nodiscard]] PixelState state(int x) const;
   [[nodiscard]] const Config& config() const { return config_; }
   [[nodiscard]] int width() const { return width_; }

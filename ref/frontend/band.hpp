@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The words of a band of lines.
+// A band of lines: what comes on each of its lines, in the order of tokens. A target takes it: BandWords writes it
+// down.
 #pragma once
 
 #include <algorithm>
@@ -8,120 +9,57 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include "contract/derived.hpp"
 #include "frontend/band_effect.hpp"
 #include "frontend/cut.hpp"
-#include "frontend/polygon_layout.hpp"
-#include "frontend/polygon_shape.hpp"
+#include "frontend/frame_plan.hpp"
 #include "frontend/polygon_spans.hpp"
 #include "frontend/scan.hpp"
-#include "frontend/sweep.hpp"
-#include "frontend/tree_layout.hpp"
-#include "frontend/uses.hpp"
 #include "frontend/weight.hpp"
-#include "kage/frontend.hpp"
-#include "kage/token.hpp"
 
 namespace kage {
 
-/// Data of a frame that all bands share.
-struct FramePlan {
-  const FrameGeometry* geometry;
-  const Config* config;
-  TreeLayout tree;
-  Uses uses;
-  std::vector<std::uint32_t> volume_of_face;
-  std::vector<std::uint32_t> volume_of_edge;
-  Sweep polygons;
-  Sweep faces;
-  Sweep edges;
-  Sweep tree_edges;
-  Sweep fragments;
-  bool all_spans;                       // those without effect too
-  std::optional<PolygonLayout> layout;  // at the polygon level
-};
-
-/// Numbers of the polygons, faces, edges and fragments that touch a band.
-struct BandWork {
-  std::vector<std::uint32_t> polygons;
-  std::vector<std::uint32_t> faces;
-  std::vector<std::uint32_t> edges;
-  std::vector<std::uint32_t> tree_edges;  // of the lines ahead: one further down than the band's
-  std::vector<std::uint32_t> fragments;
-};
-
-/// Makes the words of one band after the other; keeps its buffers.
+/// Makes one band after the other; keeps its buffers.
+template <class Target>
 class Band {
  public:
-  /// With `origins` it keeps where spans come from. With `words` it adds there what they take.
-  Band(const FramePlan& frame, bool origins, SpanWords* words = nullptr)
+  /// With `words` it adds there what spans take. The target is made of `target`.
+  template <class... Arguments>
+  Band(const FramePlan& frame, SpanWords* words, Arguments&&... target)
       : f_(&frame),
-        keeps_origins_(origins),
         span_words_(words),
         g_(frame.geometry),
-        layout_(frame.layout ? &*frame.layout : nullptr),
-        writer_(*frame.config, words_),
+        target_(std::forward<Arguments>(target)...),
         spans_(*frame.geometry, *frame.config) {
-    if (!frame.all_spans) effect_.emplace(*frame.config, frame.geometry->width);
+    if (!frame.all_spans) effect_.emplace(*frame.geometry, *frame.config);
   }
 
   /// The next band's work, to be filled in before make().
   BandWork& work() { return work_; }
-  [[nodiscard]] std::span<const std::uint32_t> words() const { return words_; }
-
-  /// Append the origins of the band's tokens, after make().
-  void add_origins(FrameOrigins& to) const {
-    const auto append = [](std::vector<TokenOrigin>& all, const std::vector<TokenOrigin>& more) {
-      all.insert(all.end(), more.begin(), more.end());
-    };
-    for (int y = y0_; y < y1_; ++y) {
-      const FrameOrigins& from = lines_[static_cast<std::size_t>(y - y0_)].origins;
-      append(to.opaque, from.opaque);
-      append(to.shadow, from.shadow);
-      append(to.translucent, from.translucent);
-    }
-  }
-
-  /// Add the spans that the band has as such, after make().
-  void add_spans(PolygonReport& to) const {
-    for (std::size_t i = 0; i < to.ways.size(); ++i) to.ways[i] += written_.ways[i];
-  }
+  [[nodiscard]] const Target& target() const { return target_; }
 
   void make(int band) {
     y0_ = band * kBandLines;
     y1_ = std::min(y0_ + kBandLines, g_->height);
-    words_.clear();
-    written_ = {};
     for (Line& line : lines_) line.clear();
     drawn_.clear();
     parts_.clear();
     painted_ = 0;
     received_ = kNoLight;
+    target_.start(y0_, y1_);
     opaque();
+    if constexpr (Target::kSkips) target_.end_opaque();
     if (f_->config->dsf_bits > 0) volumes();
     if (f_->config->translucency > 0) translucent();
-    const bool tree = f_->tree.any();
-    std::vector<std::vector<std::uint32_t>> ahead;  // segments of line y + 1 at y - y0_
-    if (tree) f_->tree.segments(y0_ + 1, std::min(y1_ + 1, g_->height), work_.tree_edges, ahead);
-    for (int y = y0_; y < y1_; ++y) {
-      const Line& line = at(y);
-      if (tree) {
-        const auto i = static_cast<std::size_t>(y - y0_);
-        if (i < ahead.size()) words_.insert(words_.end(), ahead[i].begin(), ahead[i].end());
-        writer_.write_to(words_);
-        writer_.tree();
-      }
-      words_.insert(words_.end(), line.opaque.begin(), line.opaque.end());
-      words_.insert(words_.end(), line.shadow.begin(), line.shadow.end());
-      writer_.write_to(words_);
-      if (!line.shadow.empty() && layout_ == nullptr && g_->passes.empty()) writer_.resolve();
-      words_.insert(words_.end(), line.translucent.begin(), line.translucent.end());
-      writer_.eol(y);
-    }
+    target_.end(work_);
   }
 
  private:
+  using Role = typename Target::Role;
+
   /// Pixels that count without a look at their depth.
   struct NearRun {
     int xl;
@@ -136,9 +74,6 @@ class Band {
   };
 
   struct Line {
-    std::vector<std::uint32_t> opaque;
-    std::vector<std::uint32_t> shadow;
-    std::vector<std::uint32_t> translucent;
     // These are of the volume being worked on:
     std::vector<Crossing> near;
     std::vector<NearRun> before_all;  // spans that lie before all that receives
@@ -149,21 +84,12 @@ class Band {
     PixelRange sample;       // of light
     std::size_t passes = 0;  // lights whose RESOLVE has come
     bool open = false;       // volumes have come, and no RESOLVE behind them
-    FrameOrigins origins;
-    std::optional<Place> place;  // of the last AT
 
     void clear() {
-      origins.opaque.clear();
-      origins.shadow.clear();
-      origins.translucent.clear();
-      opaque.clear();
-      shadow.clear();
-      translucent.clear();
       start_volume();
       sample = {};
       passes = 0;
       open = false;
-      place.reset();
     }
     void start_volume() {
       near.clear();
@@ -177,17 +103,6 @@ class Band {
   /// Pixels that are no word's worth: so wide a gap between runs is filled.
   static constexpr int kWidestJoin = 16;
   static constexpr std::size_t kNoLight = ~std::size_t{0};
-
-  Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
-
-  /// A polygon in one of its roles: where its tokens go, and the values that all of them have.
-  struct Role {
-    PolygonWay way;
-    Place place;
-    std::vector<std::uint32_t> Line::*words;
-    SpanToken look;                   // of its POLYGON
-    std::optional<std::size_t> pass;  // of its colour, if it has one
-  };
 
   /// A span of an opaque polygon.
   struct Drawn {
@@ -204,62 +119,26 @@ class Band {
     PixelRange shown;
   };
 
-  [[nodiscard]] bool made(PolygonWay way) const { return layout_ != nullptr && way == PolygonWay::polygon; }
-
-  /// The role of a drawn polygon, opaque or translucent; use() is called at the polygon level only.
-  template <class Use>
-  Role drawn_role(const ScreenPolygon& p, Layer layer, Use use) const {
-    const bool opaque = layer == Layer::opaque;
-    Role role{PolygonWay::polygon, {}, opaque ? &Line::opaque : &Line::translucent, {}, 0};
-    if (opaque && p.light_planes < 0) role.look.normal_class = span_class(p, *f_->config);
-    if (layout_ == nullptr) return role;
-    const PolygonLayout::Use as = use();
-    role.way = as.way;
-    role.place = Place(layer, as.before);
-    if (!opaque) role.look.alpha = p.alpha;
-    for (std::size_t c = 0; c < static_cast<std::size_t>(f_->config->channels); ++c) role.look.color[c] = p.color[c];
-    return role;
-  }
-
-  /// Gives the next tokens of a line this place: writes an AT unless the line is there already.
-  void go_to(Line& line, const Place& place) {
-    if (line.place == place) return;
-    line.place = place;
-    writer_.at(place.token(), place.light());
-  }
-
-  /// The tokens of a polygon, on the lines where its edges begin.
-  void polygon(std::uint32_t number, const Role& role) {
-    const ScreenPolygon& p = g_->polygons[number];
-    const PolygonShape& shape = layout_->shape(number);
-    bool begun = false;
-    each_edge(g_->outline(p), shape, y0_, y1_, [&](int y, const PolygonToken& edge) {
-      writer_.write_to(at(y).*role.words);
-      go_to(at(y), role.place);
-      if (y == shape.first && !begun) {
-        begun = true;
-        writer_.polygon(depth_of(*f_->config, p, y), role.look);
-        const bool varies = f_->config->smooth != 0 && has_color_planes(p) && role.pass;
-        for (int c = 0; varies && c < f_->config->channels; ++c)
-          writer_.gradient(gradient_of(*g_, *f_->config, p, y, c, *role.pass));
-      }
-      writer_.edge(edge);
-    });
-  }
-
-  /// A line is to have a span of a polygon that does not go as such.
-  void before_span(Line& line, std::uint32_t number, const Role& role) {
-    writer_.write_to(line.*role.words);
-    if (layout_ == nullptr) return;
-    go_to(line, role.place);
-    auto& of = written_.ways[static_cast<std::size_t>(role.way)];
-    ++of.spans;
-    of.tall_spans += layout_->shape(number).lines() >= kTallLines ? 1 : 0;
-  }
+  Line& at(int y) { return lines_[static_cast<std::size_t>(y - y0_)]; }
 
   void opaque() {
+    if (effect_ || !g_->passes.empty()) return opaque_parts();
+    // Nobody asks for a span again.
+    for (const std::uint32_t i : work_.polygons) {
+      if (i < f_->tree.first_span_polygon()) continue;
+      const Role role = target_.opaque(i);
+      if (target_.made(role)) target_.polygon(role);
+      if (target_.made(role) && !target_.wants_made()) continue;
+      const ScreenPolygon& p = g_->polygons[i];
+      spans_.each(p, y0_, y1_, [&](int y, SpanToken& s, int) {
+        spans_.painted(p, y, s, 0, [&](const SpanToken& part) { target_.op(y, role, part); });
+      });
+    }
+  }
+
+  void opaque_parts() {
     const bool again = !g_->passes.empty();
-    if (effect_) effect_->start(y1_ - y0_);
+    if (effect_) effect_->start(y0_, y1_);
     for (const std::uint32_t i : work_.polygons) {
       const ScreenPolygon& p = g_->polygons[i];
       if (i < f_->tree.first_span_polygon() && !again && !effect_) continue;
@@ -267,7 +146,7 @@ class Band {
         drawn_.push_back({i, y, s, parts_.size(), 0});
         spans_.painted(p, y, s, 0, [&](const SpanToken& part) {
           parts_.push_back({part, {part.xl, part.xr}});
-          if (effect_) effect_->draw(y - y0_, part);
+          if (effect_) effect_->draw(y, part);
         });
         drawn_.back().part_count = parts_.size() - drawn_.back().first_part;
       });
@@ -276,13 +155,12 @@ class Band {
       effect_->end_drawing();
       for (std::uint32_t n = 0; n < parts_.size(); ++n) parts_[n].shown = effect_->shown(n);
     }
-    write_drawn(
-        [&](std::uint32_t i) { return drawn_role(g_->polygons[i], Layer::opaque, [&] { return layout_->opaque(i); }); },
-        Uses::drawn(0), f_->tree.first_span_polygon(), [](Line&) {});
+    write_drawn([&](std::uint32_t i) { return target_.opaque(i); }, Uses::drawn(0), f_->tree.first_span_polygon(),
+                [](int) {});
   }
 
   /// The opaque polygons from a number on, by what parts_ shows of each, in the role that get_role(polygon) says; their
-  /// uses begin with `first_use`. Calls start(line) before each span.
+  /// uses begin with `first_use`. Calls start(y) before each span.
   template <class GetRole, class Start>
   void write_drawn(GetRole get_role, std::size_t first_use, std::uint32_t first_polygon, Start start) {
     auto drawn = drawn_.begin();
@@ -291,22 +169,16 @@ class Band {
       while (drawn != drawn_.end() && drawn->polygon == i) ++drawn;
       if (i < first_polygon) continue;
       const Role role = get_role(i);
-      const bool as_polygon = made(role.way);
-      if (as_polygon) polygon(i, role);
-      for (auto d = from; d != drawn; ++d) {
-        Line& line = at(d->y);
+      const bool as_polygon = target_.made(role);
+      if (as_polygon) target_.polygon(role);
+      for (auto d = from; d != drawn; ++d)
         for (std::size_t n = d->first_part; n < d->first_part + d->part_count; ++n) {
           const Part& part = parts_[n];
           if (!as_polygon && part.shown.none()) continue;
-          start(line);
-          if (!as_polygon) {
-            before_span(line, i, role);
-            writer_.op(restricted(part.span, part.shown));
-            if (span_words_ != nullptr) span_words_->add(first_use + i, Kind::OP);
-          }
-          if (keeps_origins_) line.origins.opaque.push_back({i, TokenOrigin::kNone});
+          start(d->y);
+          target_.op(d->y, role, as_polygon ? part.span : restricted(part.span, part.shown));
+          if (span_words_ != nullptr) span_words_->add(first_use + i, Kind::OP);
         }
-      }
     }
   }
 
@@ -325,37 +197,30 @@ class Band {
       const auto cuts = std::span(g_->cuts).subspan(f.first_cut, f.cut_count);
       const int y0 = std::max(y0_, f.first_line);
       const int y1 = std::min(y1_, f.end_line);
-      for (std::uint32_t k = f.first_polygon; k < f.first_polygon + f.polygon_count; ++k) {
-        const ScreenPolygon& p = g_->polygons[k];
-        const Role role =
-            drawn_role(p, Layer::translucent, [&] { return layout_->translucent(i, k - f.first_polygon); });
-        const bool as_polygon = made(role.way);
-        if (as_polygon) polygon(k, role);
-        if (as_polygon && !keeps_origins_) continue;
+      for (std::uint32_t n = 0; n < f.polygon_count; ++n) {
+        const ScreenPolygon& p = g_->polygons[f.first_polygon + n];
+        const Role role = target_.translucent(i, n);
+        const bool as_polygon = target_.made(role);
+        if (as_polygon) target_.polygon(role);
+        if (as_polygon && !target_.wants_made()) continue;
         spans_.each(p, y0, y1, [&](int y, SpanToken& s, int) {
-          if (as_polygon) {
-            at(y).origins.translucent.push_back({k, TokenOrigin::kNone});
-            return;
-          }
+          if (as_polygon) return target_.tp(y, role, s);
           int xl = s.xl;
           int xr = s.xr;
           for (const FragmentCut& cut : cuts) restrict_to(g_->cut_lines[cut.line], cut.front, y, xl, xr);
           if (xl >= xr) return;
           s.alpha = p.alpha;
-          spans_.painted(p, y, s, 0, [&](SpanToken part) {
-            const int from = std::max(part.xl, xl);
-            const int to = std::min(part.xr, xr);
-            if (from >= to) return;
-            part = restricted(part, {from, to});
+          spans_.painted(p, y, s, 0, [&](const SpanToken& part) {
+            PixelRange seen{std::max(part.xl, xl), std::min(part.xr, xr)};
+            if (seen.first >= seen.end) return;
+            SpanToken some = restricted(part, seen);
             if (effect_) {
-              const PixelRange seen = effect_->before(y - y0_, part);
+              seen = effect_->before(y, some);
               if (seen.none()) return;
-              part = restricted(part, seen);
+              some = restricted(some, seen);
             }
-            before_span(at(y), k, role);
-            writer_.tp(part);
-            if (span_words_ != nullptr) span_words_->add(f_->uses.translucent(i, k - f.first_polygon), Kind::TP);
-            if (keeps_origins_) at(y).origins.translucent.push_back({k, TokenOrigin::kNone});
+            target_.tp(y, role, some);
+            if (span_words_ != nullptr) span_words_->add(f_->uses.translucent(i, n), Kind::TP);
           });
         });
       }
@@ -369,19 +234,18 @@ class Band {
     std::size_t edge = 0;
     std::uint32_t sample = 0;
     std::size_t pass = 0;  // of lights that have come
-    const auto start_sample = [&](std::uint32_t next) {
-      for (; !g_->passes.empty() && pass < g_->sample_light[next]; ++pass) light(pass);
-      if (effect_) receive(next);
-    };
     bool any = false;
     while (face < faces.size() || edge < edges.size()) {
       std::uint32_t v = ~0U;
       if (face < faces.size()) v = f_->volume_of_face[faces[face]];
       if (edge < edges.size()) v = std::min(v, f_->volume_of_edge[edges[edge]]);
-      const std::uint32_t of = g_->volumes[v].sample;
-      if (of != sample) close_sample(sample);
-      if (of != sample || !any) start_sample(of);
-      sample = of;
+      const std::uint32_t next = g_->volumes[v].sample;
+      if (next != sample) close_sample(sample);
+      if (next != sample || !any) {
+        for (; !g_->passes.empty() && pass < g_->sample_light[next]; ++pass) light(pass);
+        if (effect_) receive(next);
+      }
+      sample = next;
       any = true;
       for (; face < faces.size() && f_->volume_of_face[faces[face]] == v; ++face) volume_face(faces[face], v);
       for (; edge < edges.size() && f_->volume_of_edge[edges[edge]] == v; ++edge)
@@ -391,35 +255,23 @@ class Band {
     close_sample(sample);
     for (; pass < g_->passes.size(); ++pass) light(pass);
     // A line without a surface has volumes that no light's spans follow.
-    for (int y = y0_; y < y1_ && layout_ == nullptr && !g_->passes.empty(); ++y)
-      if (at(y).open) resolve(at(y), 0);
-  }
-
-  void resolve(Line& line, int samples) {
-    writer_.write_to(line.shadow);
-    writer_.resolve(samples);
-    line.open = false;
+    for (int y = y0_; y < y1_ && !g_->passes.empty(); ++y)
+      if (at(y).open) target_.resolve(y, 0);
   }
 
   /// The opaque spans once more, with a light's colours, those of units too: behind its volumes.
   void light(std::size_t pass) {
     paint(pass);
     const int samples = f_->config->count_bits > 0 ? g_->passes[pass] : 0;
-    write_drawn(
-        [&](std::uint32_t i) {
-          Role role{PolygonWay::polygon, {}, &Line::shadow, {}, 1 + pass};
-          if (layout_ != nullptr) {
-            const PolygonLayout::Use use = layout_->lit(pass, i);
-            role.way = use.way;
-            role.place = layout_->light_place(pass, use.before);
-          }
-          return role;
-        },
-        f_->uses.lit(pass, 0), 0,
-        [&](Line& line) {
-          if (layout_ == nullptr && line.passes == pass) resolve(line, samples);
-          line.passes = pass + 1;
-        });
+    write_drawn([&](std::uint32_t i) { return target_.lit(pass, i); }, f_->uses.lit(pass, 0), 0,
+                [&](int y) {
+                  Line& line = at(y);
+                  if (line.passes == pass) {
+                    target_.resolve(y, samples);
+                    line.open = false;
+                  }
+                  line.passes = pass + 1;
+                });
   }
 
   /// Give all parts the colours of a light.
@@ -457,60 +309,46 @@ class Band {
     if (!g_->passes.empty()) return !is_dark(c, part);
     if (part.normal_class == 0) return false;
     if (!derived::has_table(c)) return true;
-    const auto& share =
-        g_->shares[(static_cast<std::size_t>(part.normal_class) - 1) * static_cast<std::size_t>(c.lights) + light];
+    const std::size_t row = (static_cast<std::size_t>(part.normal_class) - 1) * static_cast<std::size_t>(c.lights);
+    const auto& share = g_->shares[row + light];
     return std::any_of(share.begin(), share.begin() + c.channels, [](std::uint32_t s) { return s != 0; });
   }
 
   void volume_face(std::uint32_t number, std::uint32_t volume) {
     const VolumeFace& face = g_->volume_faces[number];
-    Role role = face_role(number, volume);
-    const bool as_polygon = made(role.way);
-    if (as_polygon) polygon(face.polygon, role);
-    if (as_polygon && !keeps_origins_ && !effect_) return;
-    // A cap that is drawn lies nowhere before what is drawn.
-    if (effect_ && !as_polygon && face.polygon < g_->drawn) return;
-    spans_.each(g_->polygons[face.polygon], y0_, y1_, [&](int y, SpanToken& s, int winding) {
+    const ScreenPolygon& p = g_->polygons[face.polygon];
+    const Role role = target_.face(number, volume);
+    const bool as_polygon = target_.made(role);
+    if (as_polygon) target_.polygon(role);
+    if (as_polygon && !target_.wants_made() && !effect_) return;
+    if (!as_polygon && (effect_ || Target::kSkips)) {
+      // A cap that is drawn lies nowhere before what is drawn.
+      if (face.polygon < g_->drawn) return;
+      if constexpr (Target::kSkips)
+        if (target_.hides(p)) return;
+      if (effect_ && effect_->hides(p)) return;
+    }
+    spans_.each(p, y0_, y1_, [&](int y, SpanToken& s, int winding) {
       s.w = weight(*f_->config, winding * face.w);
       if (s.w == 0) return;
-      Line& line = at(y);
-      if (as_polygon) {
-        if (keeps_origins_) line.origins.shadow.push_back({face.polygon, volume});
-        if (effect_) effect_->count(y - y0_, s);
-        line.has_polygon = true;
-        line.volume.add(s.xl, s.xr);
-      } else if (!effect_) {
-        face_span(line, number, volume, role, s);
-      } else {
-        const Before before = effect_->count(y - y0_, s);
-        if (before.pixels.none()) return;
-        if (span_words_ != nullptr) span_words_->add(f_->uses.face(number), before.all ? Kind::NC : Kind::SP);
-        if (before.all) {
-          line.before_all.push_back({before.pixels.first, before.pixels.end, s.w});
-        } else {
-          line.held.push_back({number, restricted(s, before.pixels)});
-        }
-        line.volume.add(before.pixels.first, before.pixels.end);
-      }
+      if (effect_ && !as_polygon) return hold(y, number, s);
+      if (effect_) effect_->count(y, s);
+      at(y).has_polygon |= as_polygon;
+      if (target_.sp(y, role, volume, s)) at(y).volume.add(s.xl, s.xr);
     });
   }
 
-  [[nodiscard]] Role face_role(std::uint32_t number, std::uint32_t volume) const {
-    Role role{PolygonWay::polygon, {}, &Line::shadow, {}, std::nullopt};
-    if (layout_ == nullptr) return role;
-    const PolygonLayout::Use use = layout_->face(number);
-    role.way = use.way;
-    role.place = layout_->place(volume, use.before);
-    role.look.w = weight(*f_->config, g_->volume_faces[number].w);
-    return role;
-  }
-
-  void face_span(Line& line, std::uint32_t number, std::uint32_t volume, const Role& role, const SpanToken& s) {
-    const std::uint32_t polygon = g_->volume_faces[number].polygon;
-    before_span(line, polygon, role);
-    writer_.sp(s);
-    if (keeps_origins_) line.origins.shadow.push_back({polygon, volume});
-    line.volume.add(s.xl, s.xr);
+  /// A span of a face waits until its volume has an effect on the line, unless it counts at no pixel.
+  void hold(int y, std::uint32_t face, const SpanToken& s) {
+    const Before before = effect_->count(y, s);
+    if (before.pixels.none()) return;
+    Line& line = at(y);
+    if (span_words_ != nullptr) span_words_->add(f_->uses.face(face), before.all ? Kind::NC : Kind::SP);
+    if (before.all)
+      line.before_all.push_back({before.pixels.first, before.pixels.end, s.w});
+    else
+      line.held.push_back({face, restricted(s, before.pixels)});
+    line.volume.add(before.pixels.first, before.pixels.end);
   }
 
   void near_edge(const NearEdge& e) {
@@ -526,33 +364,34 @@ class Band {
     for (int y = y0_; y < y1_; ++y) {
       Line& line = at(y);
       if (line.volume.none() && line.near.empty()) continue;
-      std::vector<NearRun>& runs = near_runs_;
-      runs.clear();
+      near_runs_.clear();
       each_run(line.near, [&](const NearRun& r) {
         line.volume.add(r.xl, r.xr);
-        runs.push_back(r);
+        near_runs_.push_back(r);
       });
-      if (effect_) {
-        for (const NearRun& r : runs) effect_->count_all(y - y0_, r.xl, r.xr, r.w);
-        const bool found = !line.volume.none() && effect_->end_volume(y - y0_, line.volume.first, line.volume.end);
-        if (found && span_words_ != nullptr) span_words_->add_volume(volume);
-        if (!found && !line.has_polygon) {
-          line.start_volume();
-          continue;
+      if (!effect_ || has_effect(y, line, volume)) {
+        for (const NearRun& r : near_runs_) target_.near(y, volume, r.xl, r.xr, r.w);
+        if (!line.volume.none()) {
+          if (f_->config->fsf != 0) target_.ev(y, volume, line.volume.first, line.volume.end);
+          line.sample.add(line.volume.first, line.volume.end);
+          line.open = true;
         }
-        for (const FaceSpan& held : line.held) {
-          // Behind the polygons of the volume, which have been written.
-          Role role = face_role(held.face, volume);
-          if (layout_ != nullptr) role.place = layout_->place(volume, layout_->made_of(volume));
-          face_span(line, held.face, volume, role, held.span);
-        }
-        add_before_all(line);
-        join_runs(y);
       }
-      for (const NearRun& r : runs) near_run(line, volume, r);
-      if (!line.volume.none()) end_volume(line, volume);
       line.start_volume();
     }
+  }
+
+  /// Whether a volume has an effect on a line. Then what was held of it goes to the target, but for near_runs_.
+  bool has_effect(int y, Line& line, std::uint32_t volume) {
+    for (const NearRun& r : near_runs_) effect_->count_all(y, r.xl, r.xr, r.w);
+    const bool found = !line.volume.none() && effect_->end_volume(y, line.volume.first, line.volume.end);
+    if (found && span_words_ != nullptr) span_words_->add_volume(volume);
+    // A polygon counts on all of its lines, and the volume's other spans with it.
+    if (!found && !line.has_polygon) return false;
+    for (const FaceSpan& held : line.held) target_.sp(y, target_.last_face(held.face, volume), volume, held.span);
+    add_before_all(line);
+    join_runs(y);
+    return true;
   }
 
   template <class Use>
@@ -587,7 +426,7 @@ class Band {
       NearRun& last = near_runs_[kept];
       const NearRun& next = near_runs_[i];
       const bool joins = next.w == last.w && next.xl >= last.xr && next.xl - last.xr <= kWidestJoin &&
-                         effect_->nobody_receives(y - y0_, last.xr, next.xl);
+                         effect_->nobody_receives(y, last.xr, next.xl);
       if (joins)
         last.xr = next.xr;
       else
@@ -596,51 +435,24 @@ class Band {
     if (!near_runs_.empty()) near_runs_.resize(kept + 1);
   }
 
-  void end_volume(Line& line, std::uint32_t volume) {
-    if (f_->config->fsf != 0) {
-      if (layout_ == nullptr) {
-        writer_.write_to(line.shadow);
-        writer_.ev(line.volume.first, line.volume.end);
-      }
-      if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
-    }
-    line.sample.add(line.volume.first, line.volume.end);
-    line.open = true;
-  }
-
   void close_sample(std::uint32_t sample) {
-    if (f_->config->count_bits == 0 || layout_ != nullptr) return;
+    if (f_->config->count_bits == 0) return;
     for (int y = y0_; y < y1_; ++y) {
       Line& line = at(y);
       if (line.sample.none()) continue;
-      writer_.write_to(line.shadow);
-      writer_.es(line.sample.first, line.sample.end, g_->passes.empty() ? g_->sample_light[sample] : 0);
+      target_.es(y, line.sample.first, line.sample.end, g_->passes.empty() ? g_->sample_light[sample] : 0);
       line.sample = {};
     }
   }
 
-  void near_run(Line& line, std::uint32_t volume, const NearRun& r) {
-    writer_.write_to(line.shadow);
-    if (layout_ != nullptr) go_to(line, layout_->place(volume, layout_->made_of(volume)));
-    if (r.xl == 0 && r.xr == g_->width && layout_ == nullptr)
-      writer_.inside(r.w);
-    else
-      writer_.nc(r.xl, r.xr, r.w);
-    if (keeps_origins_) line.origins.shadow.push_back({TokenOrigin::kNone, volume});
-  }
-
   const FramePlan* f_;
-  bool keeps_origins_;
   SpanWords* span_words_;
   const FrameGeometry* g_;
-  const PolygonLayout* layout_;  // at the polygon level
+  Target target_;
   BandWork work_;
   int y0_ = 0;
   int y1_ = 0;
-  std::vector<std::uint32_t> words_;
-  TokenWriter writer_;
   PolygonSpans spans_;
-  PolygonReport written_;             // spans alone
   std::optional<BandEffect> effect_;  // unless all spans are written
   std::vector<Drawn> drawn_;
   std::vector<Part> parts_;

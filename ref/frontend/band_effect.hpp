@@ -13,8 +13,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "frontend/depth_pyramid.hpp"
 #include "frontend/sweep.hpp"
-#include "kage/config.hpp"
+#include "kage/geometry.hpp"
 #include "kage/token.hpp"
 #include "kernels/span_kernels.hpp"
 
@@ -22,20 +23,19 @@ namespace kage {
 
 class BandEffect {
   template <class V>
-  auto* row(V& v, int line) const {
-    return v.data() + static_cast<std::size_t>(line) * stride_;
+  auto* row(V& v, int y) const {
+    return v.data() + static_cast<std::size_t>(y - y0_) * stride_;
   }
 
  public:
-  BandEffect(const Config& config, int width);
+  BandEffect(const FrameGeometry& geometry, const Config& config);
 
-  /// A band begins: nothing is drawn.
-  /// @param lines at most kBandLines
-  void start(int lines);
+  /// A band of the lines [y0, y1) begins: nothing is drawn.
+  void start(int y0, int y1);
 
-  /// The next opaque span, from the first on: line 0 is the band's first.
+  /// The next opaque span, on line y.
   /// @return its number, from 0
-  std::uint32_t draw(int line, const SpanToken& span);
+  std::uint32_t draw(int y, const SpanToken& span);
 
   /// All opaque spans have come: find the pixels that show each.
   void end_drawing();
@@ -45,7 +45,8 @@ class BandEffect {
   /// From now on receivers are the pixels that show spans of which `receives` is true; no pixel is flagged.
   template <class Receives>
   void start_sample(Receives receives) {
-    for (int y = 0; y < lines_; ++y) {
+    pyramid_.start(y0_, y1_);
+    for (int y = y0_; y < y1_; ++y) {
       const std::int32_t* zb = row(zb_, y);
       const std::uint32_t* owner = row(owner_, y);
       std::int32_t* at = row(receivers_, y);
@@ -54,25 +55,28 @@ class BandEffect {
         const bool takes = number != kNobody && receives(number);
         for (; x < width_ && owner[x] == number; ++x) at[x] = takes ? zb[x] : 0;
       }
+      pyramid_.add_line(y, at);
     }
     clear_flags();
   }
   /// The next sample, with the same receivers: no pixel is flagged.
   void clear_flags();
 
+  /// Whether no span of a face counts at any pixel of the band, as far as its box and its plane tell.
+  [[nodiscard]] bool hides(const ScreenPolygon& face) const { return pyramid_.hides(face); }
   /// A span of the volume at hand counts where it lies before what is drawn.
-  Before count(int line, const SpanToken& span);
+  Before count(int y, const SpanToken& span);
   /// Likewise [xl, xr), whatever its depth.
-  void count_all(int line, int xl, int xr, int w);
+  void count_all(int y, int xl, int xr, int w);
   /// The volume at hand ends: flag the pixels in [xl, xr), where alone it counts.
   /// @return whether that is a receiver's first flag
-  bool end_volume(int line, int xl, int xr);
+  bool end_volume(int y, int xl, int xr);
 
   /// Whether no receiver lies in [xl, xr).
-  [[nodiscard]] bool nobody_receives(int line, int xl, int xr) const;
+  [[nodiscard]] bool nobody_receives(int y, int xl, int xr) const;
 
   /// Pixels of a translucent span that lie before what is drawn.
-  [[nodiscard]] PixelRange before(int line, const SpanToken& span) const;
+  [[nodiscard]] PixelRange before(int y, const SpanToken& span) const;
 
  private:
   static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
@@ -80,7 +84,9 @@ class BandEffect {
   Config config_;
   int width_;
   std::size_t stride_;
-  int lines_ = 0;
+  int y0_ = 0;
+  int y1_ = 0;
+  DepthPyramid pyramid_;  // of receivers_
   std::vector<std::int32_t> zb_;
   std::vector<std::uint32_t> owner_;     // the span that a pixel shows
   std::vector<std::int32_t> receivers_;  // zb_ of receivers, 0 of others

@@ -76,7 +76,7 @@ class Uses {
 class SpanWords {
  public:
   SpanWords(const FrameGeometry& geometry, const Uses& uses, const Config& config)
-      : g_(&geometry), uses_(&uses), layout_(config), of_use_(uses.count()), volumes_(geometry.volumes.size()) {}
+      : layout_(config), of_use_(uses.count()), volumes_(geometry.volumes.size()) {}
 
   /// A use has such a span.
   void add(std::size_t use, Kind kind) {
@@ -93,18 +93,16 @@ class SpanWords {
   }
 
   /// All bands have come: faces of a volume without effect have none.
-  void end() {
-    for (std::size_t v = 0; v < volumes_.size() && uses_->has_faces(); ++v)
+  void end(const FrameGeometry& geometry, const Uses& uses) {
+    for (std::size_t v = 0; v < volumes_.size() && uses.has_faces(); ++v)
       if (volumes_[v] == 0)
-        std::fill_n(of_use_.begin() + static_cast<std::ptrdiff_t>(uses_->face(g_->volumes[v].first_face)),
-                    g_->volumes[v].face_count, 0U);
+        std::fill_n(of_use_.begin() + static_cast<std::ptrdiff_t>(uses.face(geometry.volumes[v].first_face)),
+                    geometry.volumes[v].face_count, 0U);
   }
 
   [[nodiscard]] std::uint32_t of(std::size_t use) const { return of_use_[use]; }
 
  private:
-  const FrameGeometry* g_;
-  const Uses* uses_;
   Layout layout_;
   std::vector<std::uint32_t> of_use_;
   std::vector<std::uint8_t> volumes_;

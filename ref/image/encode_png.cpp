@@ -34,6 +34,8 @@ class PngEncoder : public ImageEncoder {
                      PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
         // Flat areas and their edges, which these pictures are made of, pack best as they are.
         png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+        // A third of the instructions of the usual level 6, for files about half as large again.
+        png_set_compression_level(png_, 3);
         png_write_info(png_, info_);
       });
     } catch (...) {

@@ -185,6 +185,34 @@ HWY_INLINE void add_lanes(PixelRange& pixels, int x, hn::Mask<D32> mask) {
   pixels.add(x + std::countr_zero(bits), x + static_cast<int>(std::bit_width(bits)));
 }
 
+void Resolve(int count, const std::int32_t* HWY_RESTRICT zb, std::int32_t clear, const std::uint32_t* HWY_RESTRICT flag,
+             std::uint32_t bias, std::uint32_t mask, std::uint32_t* HWY_RESTRICT attr, const Darkening& darkening) {
+  const D32 d;
+  const DU32 du;
+  const auto b = hn::Set(du, bias);
+  const auto m = hn::Set(du, mask);
+  const auto lit = hn::Set(du, 1U << 24);
+  const auto byte = hn::Set(du, 255U);
+  const auto keep = hn::Set(du, darkening.keep);
+  const auto half = hn::Set(du, darkening.half);
+  const int n = static_cast<int>(hn::Lanes(du));
+  for (int x = 0; x < count; x += n) {
+    const auto old = hn::LoadU(du, attr + x);
+    auto takes = hn::Ne(hn::And(hn::Add(hn::LoadU(du, flag + x), b), m), hn::Zero(du));
+    takes = hn::And(takes, hn::TestBit(old, lit));
+    takes = hn::And(takes, hn::FirstN(du, static_cast<std::size_t>(count - x)));
+    takes = hn::And(takes, hn::RebindMask(du, hn::Ne(hn::LoadU(d, zb + x), hn::Set(d, clear))));
+    if (hn::AllFalse(du, takes)) continue;
+    const auto darkened = [&](hn::Vec<DU32> channel) {
+      return hn::ShiftRightSame(hn::Add(hn::Mul(hn::And(channel, byte), keep), half), darkening.shift);
+    };
+    const auto low = darkened(old);
+    const auto middle = hn::ShiftLeft<8>(darkened(hn::ShiftRight<8>(old)));
+    const auto high = hn::ShiftLeft<16>(darkened(hn::ShiftRight<16>(old)));
+    hn::StoreU(hn::IfThenElse(takes, hn::Or(hn::Or(low, middle), hn::Or(high, lit)), old), du, attr + x);
+  }
+}
+
 PixelRange InFront(const DepthRamp& ramp, int count, const std::int32_t* HWY_RESTRICT zb) {
   const D32 d;
   Depths depths(ramp);
@@ -309,6 +337,7 @@ HWY_EXPORT(Sp);
 HWY_EXPORT(Ev);
 HWY_EXPORT(Es);
 HWY_EXPORT(Tp);
+HWY_EXPORT(Resolve);
 HWY_EXPORT(InFront);
 HWY_EXPORT(Count);
 HWY_EXPORT(Flag);
@@ -335,6 +364,10 @@ void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_
 void span_tp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha) {
   KAGE_DISPATCH(Tp)(ramp, count, zb, attr, color, channels, alpha);
+}
+void span_resolve(int count, const std::int32_t* zb, std::int32_t clear, const std::uint32_t* flag, std::uint32_t bias,
+                  std::uint32_t mask, std::uint32_t* attr, const Darkening& darkening) {
+  KAGE_DISPATCH(Resolve)(count, zb, clear, flag, bias, mask, attr, darkening);
 }
 PixelRange span_before(const DepthRamp& ramp, int count, const std::int32_t* zb) {
   return KAGE_DISPATCH(InFront)(ramp, count, zb);

@@ -63,6 +63,18 @@ void span_ev(int count, std::uint32_t* dsf, std::uint32_t* fsf, std::uint32_t bi
 void span_es(int count, std::uint32_t* flag, std::uint32_t* counts, std::uint32_t bias, std::uint32_t mask,
              std::uint32_t most);
 
+/// Darkening: each channel of a colour becomes (channel x keep + half) >> shift.
+struct Darkening {
+  std::uint32_t keep;
+  std::uint32_t half;
+  int shift;
+};
+
+/// Where ((flag + bias) & mask) != 0, zb is not `clear`, and attr has bit 24: the channels in bits 0 .. 23 of attr are
+/// darkened, and the bits above bit 24 become 0.
+void span_resolve(int count, const std::int32_t* zb, std::int32_t clear, const std::uint32_t* flag, std::uint32_t bias,
+                  std::uint32_t mask, std::uint32_t* attr, const Darkening& darkening);
+
 /// Where Z < zb: each channel of attr = round((old * (255 - alpha) + new * alpha) / 255). Depth stays.
 void span_tp(const DepthRamp& ramp, int count, const std::int32_t* zb, std::uint32_t* attr, const ColorRamp* color,
              int channels, int alpha);

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -69,42 +71,33 @@ class BitPacker {
   std::uint64_t lost_ = 0;
 };
 
-/// The other way round: takes the fields of a token in their order from the least significant bit up.
+/// Bits of the widest field of a token: with up to 7 bits before it in its first byte, they are 64.
+inline constexpr int kMostFieldBits = 57;
+
+/// The other way round: takes any field of a token. The eight bytes from its first byte on hold a field whole, so the
+/// words are copied to where as many may be read.
 class BitUnpacker {
  public:
-  explicit BitUnpacker(std::span<const std::uint32_t> words) : next_(words.data()) {}
+  /// Begins with the token's words; others may follow.
+  explicit BitUnpacker(std::span<const std::uint32_t> words) {
+    const std::size_t count = std::min(words.size(), kMostTokenWords);
+    for (std::size_t i = 0; i < count; ++i) words_[i] = words[i];
+    words_[count] = words_[count + 1] = 0;
+  }
 
-  /// The next field, sign-extended where the layout says so. 0 for an absent one.
-  [[nodiscard]] std::int64_t take(Field f) {
+  /// A field, sign-extended where the layout says so. 0 for an absent one.
+  [[nodiscard]] std::int64_t take(Field f) const {
     if (f.bits == 0) return 0;
-    unsigned bits = f.bits;
     std::uint64_t v = 0;
-    if (bits > 32) {
-      v = take_half(32);
-      bits -= 32;
-      v |= take_half(bits) << 32;
-    } else {
-      v = take_half(bits);
-    }
-    return f.is_signed ? sign_extend(v, f.bits) : static_cast<std::int64_t>(v);
+    std::memcpy(&v, reinterpret_cast<const unsigned char*>(words_) + f.lsb / 8, sizeof v);
+    v = v >> f.lsb % 8 << (64 - f.bits);
+    return f.is_signed ? static_cast<std::int64_t>(v) >> (64 - f.bits) : static_cast<std::int64_t>(v >> (64 - f.bits));
   }
 
  private:
-  // have_ < 32 between calls, and no word is read before a bit of it is asked for.
-  std::uint64_t take_half(unsigned bits) {
-    if (have_ < bits) {
-      acc_ |= static_cast<std::uint64_t>(*next_++) << have_;
-      have_ += 32;
-    }
-    const std::uint64_t v = acc_ & ((std::uint64_t{1} << bits) - 1);
-    acc_ >>= bits;
-    have_ -= bits;
-    return v;
-  }
+  static_assert(std::endian::native == std::endian::little, "the bytes of a word begin with its lowest");
 
-  const std::uint32_t* next_;
-  std::uint64_t acc_ = 0;
-  unsigned have_ = 0;
+  std::uint32_t words_[kMostTokenWords + 2];  // only what a token has, and two more, is written and read
 };
 
 /// A field by its place, without sign.

@@ -6,13 +6,14 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <utility>
 
 #include "image/save.hpp"
 #include "kage/token.hpp"
 
 namespace kage {
 
-/// The picture of a frame, written as the frame flows by: its words tell the size, its lines the rest.
+/// The picture of a frame, written as the frame flows by: its size, or the words that tell it, and then its lines.
 class FramePicture {
  public:
   explicit FramePicture(std::filesystem::path path) : path_(std::move(path)) {}
@@ -24,12 +25,19 @@ class FramePicture {
     for (std::size_t i = 0; i < words.size() && seen_ < head_.size(); ++i) head_[seen_++] = words[i];
   }
 
+  /// The same without words.
+  void size(int width, int height) { size_ = {width, height}; }
+
   /// The next line from the top. The file is begun with the first.
   void line(std::span<const std::uint8_t> pixels) {
     if (!writer_) {
-      const FrameHeader h = FrameHeader::read(head_);
-      writer_ = std::make_unique<ImageWriter>(path_, h.width, h.height,
-                                              h.width == 0 ? 0 : static_cast<int>(pixels.size()) / h.width);
+      if (seen_ == head_.size()) {
+        const FrameHeader h = FrameHeader::read(head_);
+        size_ = {h.width, h.height};
+      }
+      const auto [width, height] = size_;
+      const int channels = width == 0 ? 0 : static_cast<int>(pixels.size()) / width;
+      writer_ = std::make_unique<ImageWriter>(path_, width, height, channels);
     }
     writer_->line(pixels);
   }
@@ -54,6 +62,7 @@ class FramePicture {
   std::filesystem::path path_;
   std::array<std::uint32_t, 2> head_{};
   std::size_t seen_ = 0;
+  std::pair<int, int> size_{};
   std::unique_ptr<ImageWriter> writer_;
 };
 

@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "direct/draw.hpp"
 #include "kage/error.hpp"
 #include "kage/pipeline.hpp"
 
@@ -37,6 +38,8 @@ std::vector<std::uint32_t> FrameSource::words(int index) {
   return all;
 }
 
+bool FrameSource::draw(int /*index*/, const SizeSink& /*start*/, const LineSink& /*sink*/) { return false; }
+
 SceneFrames::SceneFrames(std::shared_ptr<const Scene> scene, const Config& config, DrawOptions options)
     : scene_(std::move(scene)), config_(config), options_(std::move(options)), order_(options_.order) {
   check_options(options_);
@@ -66,15 +69,29 @@ Provenance SceneFrames::provenance(int index, const WordSink& sink) {
   return {scene_->objects(), std::move(parts.scene), std::move(parts.geometry), std::move(origins)};
 }
 
-TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts, FrameOrigins* origins) {
+/// Makes a frame's geometry and calls make(): errors that come before `begun` is set begin with scene and frame. Then
+/// sinks say for themselves where they are.
+template <class Make>
+void SceneFrames::guarded(int index, FrameParts& parts, Make make) {
   check_index(index, frames_);
   const std::string where = fmt::format("{}: frame {}", options_.name, index);
-  FrameChecker checker(config_, where, 0);
-  bool begun = false;  // then checker and sink say for themselves where they are
+  bool begun = false;
   try {
     parts.scene = scene_->frame(index, frames_);
     parts.geometry = make_geometry(parts.scene, config_, options_.width, options_.height,
                                    {.look = options_.look, .order = &order_, .shadows = &shadows_});
+    make(begun);
+  } catch (const TooManyFragments& e) {
+    throw TooManyFragments(e.limit(), where);
+  } catch (const Error& e) {
+    if (begun) throw;
+    throw Error(fmt::format("{}: {}", where, e.what()));
+  }
+}
+
+TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts, FrameOrigins* origins) {
+  FrameChecker checker(config_, fmt::format("{}: frame {}", options_.name, index), 0);
+  guarded(index, parts, [&](bool& begun) {
     make_frame(parts.geometry, config_, static_cast<std::uint32_t>(index),
                [&](std::span<const std::uint32_t> words) {
                  begun = true;
@@ -87,13 +104,27 @@ TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts
                 .level = options_.level,
                 .polygons = &parts.polygons,
                 .all_spans = options_.all_spans});
-  } catch (const TooManyFragments& e) {
-    throw TooManyFragments(e.limit(), where);
-  } catch (const Error& e) {
-    if (begun) throw;
-    throw Error(fmt::format("{}: {}", where, e.what()));
-  }
+  });
   return origins == nullptr ? checker.finish() : TokenCounts{};
+}
+
+bool SceneFrames::draw(int index, const SizeSink& start, const LineSink& sink) {
+  FrameParts parts;
+  return draw(index, start, sink, parts);
+}
+
+bool SceneFrames::draw(int index, const SizeSink& start, const LineSink& sink, FrameParts& parts) {
+  if (!draws(config_) || options_.level != Level::spans) return false;
+  guarded(index, parts, [&](bool& begun) {
+    const bool drawn =
+        draw_frame(parts.geometry, config_, options_.threads, [&](int y, std::span<const std::uint8_t> line) {
+          begun = true;
+          if (y == 0) start(options_.width, options_.height);
+          sink(y, line);
+        });
+    parts.blank = !drawn;
+  });
+  return true;
 }
 
 StreamFrames::StreamFrames(std::shared_ptr<const StreamFile> file) : file_(std::move(file)), config_(file_->config()) {}

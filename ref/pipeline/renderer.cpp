@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "kage/error.hpp"
 #include "kage/pipeline.hpp"
@@ -9,39 +10,55 @@
 
 namespace kage {
 
-Renderer::Renderer(FrameSource& source) : source_(&source), core_(source.config()) {}
+Renderer::Renderer(FrameSource& source, bool through_words) : source_(&source), through_words_(through_words) {}
 
-FrameStatus Renderer::frame(int index, const LineSink& sink, const WordSink& words) {
+FrameStatus Renderer::frame(int index, const SizeSink& start, const LineSink& sink) {
+  counts_.reset();
+  if (through_words_) return through_words(index, start, sink);
+  FrameStatus status;
+  Stopwatch watch(seconds_);
+  const bool drawn = source_->draw(
+      index,
+      [&](int width, int height) {
+        status.width = width;
+        status.height = height;
+        start(width, height);
+      },
+      watch.outside(sink));
+  return drawn ? status : through_words(index, start, sink);
+}
+
+FrameStatus Renderer::through_words(int index, const SizeSink& start, const LineSink& sink) {
+  if (!core_) core_.emplace(source_->config());
+  std::vector<std::uint32_t> head;  // of the header: the picture's size
+  const LineSink lines = [&](int y, std::span<const std::uint8_t> line) {
+    if (y == 0) {
+      const FrameHeader header = FrameHeader::read(head);
+      start(header.width, header.height);
+    }
+    sink(y, line);
+  };
   try {
     counts_ = source_->frame(index, [&](std::span<const std::uint32_t> piece) {
-      if (words) words(piece);
+      head.insert(head.end(), piece.begin(),
+                  piece.begin() + static_cast<std::ptrdiff_t>(std::min(piece.size(), kHeaderWords - head.size())));
       Stopwatch watch(seconds_);
-      core_.feed(piece, watch.outside(sink));
+      core_->feed(piece, watch.outside(lines));
     });
     Stopwatch watch(seconds_);
-    return core_.finish(watch.outside(sink));
+    return core_->finish(watch.outside(lines));
   } catch (...) {
-    core_ = GoldenCore(source_->config());  // what came of the frame is forgotten
+    core_.reset();  // what came of the frame is forgotten
     throw;
   }
 }
 
 Image Renderer::image(int index) {
   Image image;
-  std::vector<std::uint32_t> head;  // of the header: the picture's size
   const FrameStatus status = frame(
-      index,
+      index, [&](int width, int height) { image = Image(width, height, source_->config().channels); },
       [&](int y, std::span<const std::uint8_t> line) {
-        if (y == 0) {
-          const FrameHeader header = FrameHeader::read(head);
-          image = Image(header.width, header.height, source_->config().channels);
-        }
         std::copy(line.begin(), line.end(), image.data.begin() + static_cast<std::ptrdiff_t>(image.index(0, y)));
-      },
-      [&](std::span<const std::uint32_t> words) {
-        if (head.size() < kHeaderWords)
-          head.insert(head.end(), words.begin(),
-                      words.begin() + static_cast<std::ptrdiff_t>(std::min(words.size(), kHeaderWords - head.size())));
       });
   if (status.error != ErrorCode::NONE) throw Error(fmt::format("frame {}: {}", index, describe(status)));
   return image;

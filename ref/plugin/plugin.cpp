@@ -3,7 +3,9 @@
 
 #include <dlfcn.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -91,6 +93,13 @@ void check_room(const fs::path& path, const std::string& what_for, std::size_t r
   munmap(free, room);
 }
 
+/// Libraries start threads as they are opened, and each would have an arena of malloc()'s. That asks for 128 MiB of
+/// address space at once, a moment in which the next library may not be mapped. Under a limit (ulimit -v) all share one.
+void share_arena() {
+  rlimit space{};
+  if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) mallopt(M_ARENA_MAX, 1);
+}
+
 /// Libraries that start threads as they are opened may wait for ever where one cannot be started, and hear no signal;
 /// so as many are tried before.
 void check_threads(const fs::path& path, const std::string& what_for) {
@@ -131,6 +140,7 @@ bool has_plugin(const std::string& name) {
 const PluginHead* open_plugin(const std::string& name, const std::string& what_for, std::size_t room) {
   const fs::path path = find("lib" + name + ".so", what_for);
   if (room > 0) {
+    share_arena();
     check_room(path, what_for, room);
     check_threads(path, what_for);
   }

@@ -15,9 +15,8 @@
 #include "bench/others/packets.hpp"
 #include "bench/others/stencil.hpp"
 #include "contract/derived.hpp"
+#include "direct/draw.hpp"
 #include "geometry/view.hpp"
-#include "kage/core.hpp"
-#include "kage/frontend.hpp"
 #include "stimulus/on_ground.hpp"
 
 namespace {
@@ -95,11 +94,9 @@ Renderer kage_renderer(const Setting& s, const std::string& name, int dsf_bits) 
   config.z_bits = kZBits;
   config.dsf_bits = dsf_bits;
   config.max_width = s.width;
-  auto core = std::make_shared<GoldenCore>(config);
-  auto words = std::make_shared<std::vector<std::uint32_t>>();
   Renderer r;
   r.name = name;
-  r.render = [&s, config, core, words](Shown shown, Parts& parts, Picture& out) {
+  r.render = [&s, config](Shown shown, Parts& parts, Picture& out) {
     parts.begin();
     FrameGeometry g = make_geometry(s.frame, config, s.width, s.height, {.look = s.look});
     parts.end("geometry");
@@ -109,14 +106,10 @@ Renderer kage_renderer(const Setting& s, const std::string& name, int dsf_bits) 
       for (std::uint32_t i = 0; i < g.drawn; ++i) g.polygons[i].color = {255, 255, 255};
     }
     parts.begin();
-    words->clear();
-    make_frame(g, config, 0, *words, {.threads = 1});
-    parts.end("front end");
     out.clear();
-    const FrameStatus status = core->frame(
-        *words, [&](int, std::span<const std::uint8_t> line) { out.insert(out.end(), line.begin(), line.end()); });
-    parts.end("core");
-    if (status.error != ErrorCode::NONE) throw std::runtime_error("the golden core refuses the front end's frame");
+    draw_frame(g, config, 1,
+               [&](int, std::span<const std::uint8_t> line) { out.insert(out.end(), line.begin(), line.end()); });
+    parts.end("drawing");
   };
   return r;
 }

@@ -22,6 +22,9 @@
 
 namespace kage {
 
+/// Takes the size of a picture, before its lines.
+using SizeSink = std::function<void(int width, int height)>;
+
 /// Frames of words, one after another. Not for use by two threads at once.
 class FrameSource {
  public:
@@ -41,6 +44,14 @@ class FrameSource {
   /// @param sink gets the words, piece by piece; what it throws ends the frame
   /// @return counts of the tokens
   virtual TokenCounts frame(int index, const WordSink& sink) = 0;
+
+  /// Draws a frame without words between, where a source has such a way: the picture is that of a GoldenCore, bit for
+  /// bit. Throws as frame().
+  /// @param index 0 .. frames() - 1
+  /// @param start gets the picture's size
+  /// @param sink gets its lines from the top; what it throws ends the frame
+  /// @return whether there is a way; if not, neither has been called
+  virtual bool draw(int index, const SizeSink& start, const LineSink& sink);
 
   /// The words in memory. Throws as frame().
   /// @param index 0 .. frames() - 1
@@ -67,6 +78,7 @@ struct FrameParts {
   FrameGeometry geometry;     ///< the same on the screen
   PolyhedraReport polyhedra;  ///< how polyhedra went to units
   PolygonReport polygons;     ///< how polygons went at the polygon level; filled when the frame has been made
+  bool blank = false;         ///< of a frame drawn without words: nothing covers the centre of a pixel
 };
 
 /// The frames of a scene. Order and shadows that do not change are kept from frame to frame, which changes no word.
@@ -105,6 +117,21 @@ class SceneFrames : public FrameSource {
   /// @return counts of the tokens
   TokenCounts frame(int index, const WordSink& sink, FrameParts& parts);
 
+  /// As FrameSource::draw(): there is a way unless the configuration has UNITS, or the frames are at the polygon level.
+  /// @param index 0 .. frames() - 1
+  /// @param start gets the picture's size
+  /// @param sink gets its lines from the top
+  /// @return whether there is a way
+  bool draw(int index, const SizeSink& start, const LineSink& sink) override;
+
+  /// The same, and what the frame was made of.
+  /// @param index 0 .. frames() - 1
+  /// @param start gets the picture's size
+  /// @param sink gets its lines from the top
+  /// @param parts filled before `start` is called, but for `blank`, which is known at the end
+  /// @return whether there is a way
+  bool draw(int index, const SizeSink& start, const LineSink& sink, FrameParts& parts);
+
   /// Tells what the tokens of a frame come from.
   /// @param index 0 .. frames() - 1
   /// @param sink gets the frame's words, which are not checked once more
@@ -116,6 +143,8 @@ class SceneFrames : public FrameSource {
 
  private:
   TokenCounts make(int index, const WordSink& sink, FrameParts& parts, FrameOrigins* origins);
+  template <class Make>
+  void guarded(int index, FrameParts& parts, Make make);
 
   std::shared_ptr<const Scene> scene_;
   Config config_;
@@ -179,37 +208,41 @@ Needs needs_of_frames(const Scene& scene, int frames, int width, int height, int
 /// @return what it is drawn with
 NamedConfig choose_config(const Scene& scene, const DrawOptions& draw);
 
-/// Draws frames with the golden core.
+/// Draws frames: without words where the source has a way (FrameSource::draw()), else with the golden core.
 class Renderer {
  public:
   /// Draws the frames of a source.
   /// @param source must outlive the renderer
-  explicit Renderer(FrameSource& source);
+  /// @param through_words always by words and the golden core
+  explicit Renderer(FrameSource& source, bool through_words = false);
 
   /// Draws a frame, line by line from the top. An error in the words is a status, and background pixels. Throws as
   /// FrameSource::frame().
   /// @param index 0 .. frames() - 1 of the source
+  /// @param start gets the picture's size before its lines, unless the frame's header has an error
   /// @param sink gets the lines
-  /// @param words if given, gets the frame's words too, each piece before the lines that come of it
   /// @return how the frame ended
-  FrameStatus frame(int index, const LineSink& sink, const WordSink& words = {});
+  FrameStatus frame(int index, const SizeSink& start, const LineSink& sink);
 
   /// Draws a frame into memory. Throws Error where its words have an error.
   /// @param index 0 .. frames() - 1 of the source
   /// @return the picture
   Image image(int index);
 
-  /// @return counts of the frame that was drawn last
-  [[nodiscard]] const TokenCounts& counts() const { return counts_; }
+  /// @return counts of the frame that was drawn last; nothing if it was drawn without words
+  [[nodiscard]] const std::optional<TokenCounts>& counts() const { return counts_; }
 
-  /// @return wall time that the golden core has taken for all frames so far, in seconds; that of source and sink is not
-  /// in it
+  /// @return wall time that drawing has taken for all frames so far, in seconds, without that of the sinks. With words
+  /// it is the golden core's, without that of the source; else geometry is in it
   [[nodiscard]] double seconds() const { return seconds_; }
 
  private:
+  FrameStatus through_words(int index, const SizeSink& start, const LineSink& sink);
+
   FrameSource* source_;
-  GoldenCore core_;
-  TokenCounts counts_;
+  bool through_words_;
+  std::optional<GoldenCore> core_;
+  std::optional<TokenCounts> counts_;
   double seconds_ = 0;
 };
 

@@ -79,16 +79,43 @@ TokenCounts Source::frame(int index, const WordSink& sink) {
   const TokenCounts counts = random_   ? frame_of_chance(index, sink)
                              : stream_ ? frame_of_stream(index, sink)
                                        : frame_of_scene(index, sink);
-  last_ = std::max(last_, index);
-  if (again_) return counts;
-  ++made_;
-  units_ = std::max(units_, counts.units);
+  if (!again_) units_ = std::max(units_, counts.units);
   bool drawn = counts.made > 0;
   for (std::size_t kind = 0; kind < kKindInfo.size(); ++kind)
     drawn = drawn || (kKindInfo[kind].draws && counts.of_kind[kind] > 0);
   // A frame that a core may refuse for its header or its order says nothing of faces.
-  if (!is_unchecked(index) && !drawn) ++blank_;
+  count_frame(index, !is_unchecked(index) && !drawn);
   return counts;
+}
+
+bool Source::draw(int index, const SizeSink& start, const LineSink& sink) {
+  if (!scene_frames_) return false;
+  again_ = index <= last_;
+  FrameParts parts;
+  try {
+    const bool drawn = scene_frames_->draw(
+        index,
+        [&](int width, int height) {
+          record(index, parts);
+          start(width, height);
+        },
+        [&](int y, std::span<const std::uint8_t> line) {
+          host_.check();
+          sink(y, line);
+        },
+        parts);
+    if (drawn) count_frame(index, parts.blank);
+    return drawn;
+  } catch (const TooManyFragments& e) {
+    refuse_fragments(fmt::format("{}: frame {}", options_.input, index), e);
+  }
+}
+
+void Source::count_frame(int index, bool blank) {
+  last_ = std::max(last_, index);
+  if (again_) return;
+  ++made_;
+  if (blank) ++blank_;
 }
 
 TokenCounts Source::frame_of_stream(int index, const WordSink& sink) {

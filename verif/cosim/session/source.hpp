@@ -110,6 +110,9 @@ class Source : public FrameSource {
   /// between the pieces, and while translucent faces are put in order, which shows its own progress.
   TokenCounts frame(int index, const WordSink& sink) override;
 
+  /// Draws frame `index` of a scene without words, unless its configuration has units or its level is that of polygons.
+  bool draw(int index, const SizeSink& start, const LineSink& sink) override;
+
   /// The origins of the tokens of frame `index`; nothing if the frames are a stream's.
   [[nodiscard]] std::optional<Provenance> provenance(int index);
 
@@ -117,6 +120,7 @@ class Source : public FrameSource {
   TokenCounts frame_of_stream(int index, const WordSink& sink);
   TokenCounts frame_of_scene(int index, const WordSink& sink);
   void record(int index, const FrameParts& parts);
+  void count_frame(int index, bool blank);
   TokenCounts frame_of_chance(int index, const WordSink& sink);
   void open_stream(const SourceOptions& options);
   void open_random(const SourceOptions& options, verif::Manner manner);

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "direct/draw.hpp"
 #include "kage/core.hpp"
 #include "kage/frontend.hpp"
 #include "kage/stream.hpp"
@@ -42,6 +43,14 @@ inline Drawn drawn(const Config& c, std::span<const std::uint32_t> words) {
 /// all spans. Says what is wrong; empty: nothing.
 inline std::string effect_fault(const FrameGeometry& g, const Config& c, std::span<const std::uint32_t> all_spans) {
   const Drawn with = drawn(c, all_spans);
+  for (const int threads : {1, 3}) {
+    std::vector<std::uint8_t> direct;
+    if (draws(c))
+      draw_frame(g, c, threads, [&](int, std::span<const std::uint8_t> line) {
+        direct.insert(direct.end(), line.begin(), line.end());
+      });
+    if (draws(c) && direct != with.pixels) return "drawn without words it is another picture";
+  }
   for (const Level level : {Level::spans, Level::polygons}) {
     if (level == Level::polygons && c.active == 0) continue;
     const std::string at = level == Level::spans ? "at the span level" : "at the polygon level";

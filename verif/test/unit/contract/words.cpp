@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "contract/fields.hpp"
 #include "kage/error.hpp"
 #include "kage/stream.hpp"
 #include "number/bits.hpp"
@@ -168,15 +169,15 @@ TEST_CASE("a field has its place: what is put there is what the walk over all fi
   CAPTURE(test_seed());
   const auto noise = [&random] { return static_cast<std::uint32_t>(random.integer(0, UINT32_MAX)); };
   for (int round = 0; round < 1000; ++round) {
-    std::array<Field, 8> fields{};
+    std::array<Field, 5> fields{};
     unsigned lsb = 0;
     for (Field& f : fields) {
-      f = Field{static_cast<std::uint16_t>(lsb), static_cast<std::uint8_t>(random.in(0, 63)), false};
+      f = Field{static_cast<std::uint16_t>(lsb), static_cast<std::uint8_t>(random.in(0, kMostFieldBits)), false};
       lsb += f.bits;
     }
     std::vector<std::uint32_t> words(lsb / 32 + 1);
     for (std::uint32_t& word : words) word = noise();
-    const auto at = static_cast<std::size_t>(random.in(0, 7));
+    const auto at = static_cast<std::size_t>(random.in(0, 4));
     const auto value = std::uint64_t{noise()} << 32 | noise();
     std::vector<std::uint32_t> changed = words;
     put_at(changed, fields[at], value);
@@ -201,6 +202,20 @@ TEST_CASE("no token of any configuration is longer than the longest") {
   };
   CHECK(longest(kGreatest) == kMostTokenWords);
   for (int round = 0; round < 3000; ++round) CHECK(longest(random_config(random)) <= kMostTokenWords);
+}
+
+TEST_CASE("no field of any configuration has more bits than a BitUnpacker takes") {
+  Random random(test_seed());
+  CAPTURE(test_seed());
+  for (int round = 0; round < 300; ++round) {
+    const Config c = round == 0 ? kGreatest : random_config(random);
+    const Layout layout(c);
+    for (std::size_t kind = 0; kind < kKindNames.size(); ++kind)
+      each_field(c, layout, static_cast<Kind>(kind), [&](const char* name, int, Field f) {
+        CAPTURE(kKindNames[kind], name);
+        REQUIRE(f.bits <= kMostFieldBits);
+      });
+  }
 }
 
 TEST_CASE("a header's fields are where it says") {

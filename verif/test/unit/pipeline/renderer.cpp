@@ -26,7 +26,7 @@ TEST_CASE("a scene's frames have the words of geometry and front end, and the pi
   const auto scene = std::make_shared<const Scene>(Scene::load("glass"));
   const Config config = config_of("glass");
   SceneFrames frames(scene, config, {.width = kWidth, .height = kHeight, .frames = 3, .threads = 1});
-  Renderer renderer(frames);
+  Renderer renderer(frames, true);
   REQUIRE(frames.frames() == 3);
   for (const int i : {2, 0, 1}) {  // in any order: what is kept from frame to frame changes no word
     std::vector<std::uint32_t> words;
@@ -39,7 +39,11 @@ TEST_CASE("a scene's frames have the words of geometry and front end, and the pi
       std::copy(line.begin(), line.end(), image.data.begin() + static_cast<std::ptrdiff_t>(image.index(0, y)));
     });
     CHECK(renderer.image(i) == image);
-    CHECK(renderer.counts().words == words.size());
+    REQUIRE(renderer.counts());
+    CHECK(renderer.counts()->words == words.size());
+    Renderer direct(frames);
+    CHECK(direct.image(i) == image);
+    CHECK(!direct.counts());
   }
   CHECK_THROWS_AS(frames.words(3), Error);
   CHECK_THROWS_AS(frames.words(-1), Error);
@@ -79,14 +83,17 @@ TEST_CASE("a stream file's frames are its words, and its pictures the scene's") 
 TEST_CASE("a frame that its sink ends, at any line, leaves nothing in the renderer") {
   SceneFrames frames(Scene::load("courtyard"), {.width = kWidth, .height = kHeight, .frames = 2});
   const Image wanted = Renderer(frames).image(1);
-  Renderer renderer(frames);
-  for (const int last : {0, 17, kHeight - 1}) {
-    const auto stop = [&](int y, std::span<const std::uint8_t>) {
-      if (y == last) throw Stop();
-    };
-    CHECK_THROWS_AS(renderer.frame(0, stop), Stop);
-    CHECK(renderer.image(1) == wanted);
-  }
+  for (const bool through_words : {false, true})
+    for (const int last : {0, 17, kHeight - 1}) {
+      Renderer renderer(frames, through_words);
+      const auto stop = [&](int y, std::span<const std::uint8_t>) {
+        if (y == last) throw Stop();
+      };
+      CHECK_THROWS_AS(renderer.frame(
+                          0, [](int, int) {}, stop),
+                      Stop);
+      CHECK(renderer.image(1) == wanted);
+    }
 }
 
 TEST_CASE("options that are not as they say are refused before a frame is made") {

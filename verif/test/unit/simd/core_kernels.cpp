@@ -158,6 +158,35 @@ TEST_CASE("shadow spans, ends of volumes, ends of samples") {
   });
 }
 
+TEST_CASE("what is lit and in shadow is darkened") {
+  Random random(test_seed(6));
+  CAPTURE(test_seed(6));
+  sweep([&](int count, Edge edge) {
+    const int shift = random.in(1, 16);
+    const auto whole = std::uint32_t{1} << shift;
+    const Darkening darkening{static_cast<std::uint32_t>(random.in(0, static_cast<int>(whole))), whole / 2, shift};
+    const auto bias = static_cast<std::uint32_t>(random.in(-2, 2));
+    const std::uint32_t mask = random.chance(0.5) ? 1 : 7;
+    const std::int32_t clear = random.in(0, 9);
+    Pixels given(random, count, edge);
+    for (int k = 0; k < count; ++k) {
+      given.attr[static_cast<std::size_t>(k)] &= (2U << 24) - 1;
+      if (random.chance(0.3)) given.zb[static_cast<std::size_t>(k)] = clear;
+    }
+    Pixels expected(given, edge);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+      const bool lit = (expected.attr[i] >> 24) != 0;
+      if (!lit || expected.zb[i] == clear || ((expected.flag[i] + bias) & mask) == 0) continue;
+      std::uint32_t darkened = 1U << 24;
+      for (int at = 0; at < 24; at += 8)
+        darkened |= (((expected.attr[i] >> at & 255U) * darkening.keep + whole / 2) / whole) << at;
+      expected.attr[i] = darkened;
+    }
+    span_resolve(count, given.zb.data(), clear, given.flag.data(), bias, mask, given.attr.data(), darkening);
+    REQUIRE(given == expected);
+  });
+}
+
 TEST_CASE("spans before a line's depths, and what they count there") {
   Random random(test_seed(5));
   CAPTURE(test_seed(5));
