@@ -18,9 +18,6 @@ constexpr double kLeastClassEdge = 16;
 constexpr int kMostStep = 4;
 constexpr int kPlaces = 8;
 
-// An edge is longer than another by more than rounding: so a scene is diced alike in any unit of length.
-constexpr double kLonger = 1 + 0x1p-20;
-
 // A sample's light is no brighter at a corner, in 1/256 of white.
 constexpr double kMostLight = 500;
 

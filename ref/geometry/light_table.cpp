@@ -40,9 +40,6 @@ constexpr double kSpread = 1;
 constexpr std::size_t kPartsOfFace = 256;
 constexpr std::size_t kPartsOfAll = 4096;
 
-// An edge is longer than another by more than rounding.
-constexpr double kLonger = 1 + 0x1p-20;
-
 }  // namespace
 
 FaceSide::FaceSide(const SceneFrame& frame, const SampledLights& lights, std::uint32_t of_polygon, int of_eye)

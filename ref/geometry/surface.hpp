@@ -14,6 +14,10 @@
 
 namespace kage {
 
+/// An edge is longer than another by more than rounding if its length, or the square of that, is so many times the
+/// other's: so a face is parted alike in any unit of length.
+inline constexpr double kLonger = 1 + 0x1p-20;
+
 /// A place of a face, with what its light follows from.
 struct SurfacePoint {
   glm::dvec3 point;
