@@ -84,7 +84,7 @@ int run(const RenderCommand& o) {
   j["frames"] = source.frames();
   j["width"] = size.width;
   j["height"] = size.height;
-  j["through_words"] = counts.has_value();
+  j["through_words"] = counts.has_value() || o.through_words;
   j["spans"] = counts ? Json(counts->spans) : Json(nullptr);
   j["span_pixels"] = counts ? Json(counts->span_pixels) : Json(nullptr);
   j["golden_seconds"] = renderer.seconds();

@@ -139,6 +139,7 @@ DRAWS = (
     "attenuation",
     "check_frame",
     "decode",
+    "draw_frame",
     "explain_pixel",
     "light_points",
     "make_frame",

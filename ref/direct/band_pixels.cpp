@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "direct/band_pixels.hpp"
 
+#include <algorithm>
+
 #include "contract/derived.hpp"
 
 namespace kage {
@@ -9,7 +11,7 @@ BandPixels::BandPixels(const FramePlan& frame)
     : has_shadows_(frame.config->dsf_bits > 0),
       linear_(frame.config->linear_bits > 0),
       line_bytes_(static_cast<std::size_t>(frame.geometry->width) * static_cast<std::size_t>(frame.config->channels)),
-      bytes_(line_bytes_ * kBandLines),
+      bytes_(line_bytes_ * static_cast<std::size_t>(std::min(kBandLines, frame.geometry->height))),
       pyramid_(*frame.geometry, *frame.config) {
   const FrameGeometry& g = *frame.geometry;
   Config config = *frame.config;
@@ -21,7 +23,7 @@ BandPixels::BandPixels(const FramePlan& frame)
   if (derived::has_table(config))
     for (std::size_t i = 0; i < g.shares.size(); ++i)
       line.add_share({static_cast<int>(i / lights) + 1, static_cast<int>(i % lights), g.shares[i]});
-  lines_.assign(kBandLines, line);
+  lines_.assign(static_cast<std::size_t>(std::min(kBandLines, g.height)), line);
 }
 
 void BandPixels::start(int y0, int y1) {

@@ -53,7 +53,9 @@ FramePlan plan_frame(const FrameGeometry& geometry, const Config& config, bool a
 class Bands {
  public:
   Bands(int height, int threads)
-      : count_((height + kBandLines - 1) / kBandLines), wave_(threads == 1 ? 1 : 8), arena_(threads) {}
+      : count_((height + kBandLines - 1) / kBandLines),
+        wave_(threads == 1 ? 1 : std::clamp(count_, 1, 8)),
+        arena_(threads) {}
 
   Arena& arena() { return arena_; }
   /// How many are made side by side.

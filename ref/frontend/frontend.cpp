@@ -54,8 +54,8 @@ void make_frame(const FrameGeometry& g, const Config& config, std::uint32_t numb
   else if (config.dsf_bits > 0 && g.passes.empty() && !g.volumes.empty())
     writer.shade(g.shade);
   Bands bands(g.height, options.threads);
+  std::optional<SpanWords> spans;
   if (polygons) {
-    std::optional<SpanWords> spans;
     if (!options.all_spans) spans = span_words(frame, bands);
     frame.layout.emplace(g, config, frame.tree.first_span_polygon(), spans ? &*spans : nullptr, bands.arena());
   }

@@ -116,12 +116,13 @@ bool SceneFrames::draw(int index, const SizeSink& start, const LineSink& sink) {
 bool SceneFrames::draw(int index, const SizeSink& start, const LineSink& sink, FrameParts& parts) {
   if (!draws(config_) || options_.level != Level::spans) return false;
   guarded(index, parts, [&](bool& begun) {
-    const bool drawn =
-        draw_frame(parts.geometry, config_, options_.threads, [&](int y, std::span<const std::uint8_t> line) {
+    const bool drawn = draw_frame(
+        parts.geometry, config_, options_.threads,
+        [&] {
           begun = true;
-          if (y == 0) start(options_.width, options_.height);
-          sink(y, line);
-        });
+          start(options_.width, options_.height);
+        },
+        sink);
     parts.blank = !drawn;
   });
   return true;

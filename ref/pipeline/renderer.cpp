@@ -16,16 +16,22 @@ FrameStatus Renderer::frame(int index, const SizeSink& start, const LineSink& si
   counts_.reset();
   if (through_words_) return through_words(index, start, sink);
   FrameStatus status;
-  Stopwatch watch(seconds_);
-  const bool drawn = source_->draw(
-      index,
-      [&](int width, int height) {
-        status.width = width;
-        status.height = height;
-        start(width, height);
-      },
-      watch.outside(sink));
-  return drawn ? status : through_words(index, start, sink);
+  double seconds = 0;
+  bool drawn = false;
+  {
+    Stopwatch watch(seconds);
+    drawn = source_->draw(
+        index,
+        [&](int width, int height) {
+          status.width = width;
+          status.height = height;
+          start(width, height);
+        },
+        watch.outside(sink));
+  }
+  if (!drawn) return through_words(index, start, sink);
+  seconds_ += seconds;
+  return status;
 }
 
 FrameStatus Renderer::through_words(int index, const SizeSink& start, const LineSink& sink) {

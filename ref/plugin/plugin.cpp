@@ -94,7 +94,8 @@ void check_room(const fs::path& path, const std::string& what_for, std::size_t r
 }
 
 /// Libraries start threads as they are opened, and each would have an arena of malloc()'s. That asks for 128 MiB of
-/// address space at once, a moment in which the next library may not be mapped. Under a limit (ulimit -v) all share one.
+/// address space at once, a moment in which the next library may not be mapped. Under a limit (ulimit -v) all share
+/// one.
 void share_arena() {
   rlimit space{};
   if (getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) mallopt(M_ARENA_MAX, 1);

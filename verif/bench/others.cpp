@@ -107,8 +107,9 @@ Renderer kage_renderer(const Setting& s, const std::string& name, int dsf_bits) 
     }
     parts.begin();
     out.clear();
-    draw_frame(g, config, 1,
-               [&](int, std::span<const std::uint8_t> line) { out.insert(out.end(), line.begin(), line.end()); });
+    draw_frame(
+        g, config, 1, [] {},
+        [&](int, std::span<const std::uint8_t> line) { out.insert(out.end(), line.begin(), line.end()); });
     parts.end("drawing");
   };
   return r;

@@ -232,8 +232,8 @@ class Renderer {
   /// @return counts of the frame that was drawn last; nothing if it was drawn without words
   [[nodiscard]] const std::optional<TokenCounts>& counts() const { return counts_; }
 
-  /// @return wall time that drawing has taken for all frames so far, in seconds, without that of the sinks. With words
-  /// it is the golden core's, without that of the source; else geometry is in it
+  /// @return wall time that drawing has taken for all frames so far, in seconds, without that of the lines' sink. With
+  /// words it is the golden core's, without that of the source; else geometry is in it
   [[nodiscard]] double seconds() const { return seconds_; }
 
  private:

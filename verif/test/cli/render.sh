@@ -12,7 +12,7 @@ same() { # OPTION...: both ways
   expect 0 "$kage" diff direct words
 }
 
-for scene in courtyard knot inside edges polyhedra glass penumbra three-lights canopy cutaway depths; do
+for scene in courtyard knot inside edges polyhedra fifteen glass penumbra three-lights canopy cutaway depths; do
   same "$scene" --frames 2
 done
 # Cores of every kind, with what a scene has that they lack left out.

@@ -46,9 +46,9 @@ inline std::string effect_fault(const FrameGeometry& g, const Config& c, std::sp
   for (const int threads : {1, 3}) {
     std::vector<std::uint8_t> direct;
     if (draws(c))
-      draw_frame(g, c, threads, [&](int, std::span<const std::uint8_t> line) {
-        direct.insert(direct.end(), line.begin(), line.end());
-      });
+      draw_frame(
+          g, c, threads, [] {},
+          [&](int, std::span<const std::uint8_t> line) { direct.insert(direct.end(), line.begin(), line.end()); });
     if (draws(c) && direct != with.pixels) return "drawn without words it is another picture";
   }
   for (const Level level : {Level::spans, Level::polygons}) {

@@ -27,9 +27,17 @@ class FrameMaker {
   }
 
   FrameGeometry make() {
+    // Shadows take anything from nothing to all of a colour.
+    const auto share = [&] {
+      const auto whole = static_cast<int>(derived::whole_share(c_));
+      return static_cast<std::uint32_t>(r_.chance(0.3) ? whole * r_.in(0, 1) : r_.in(0, whole));
+    };
+    g_.shade = share();
     if (derived::has_table(c_)) {
       classes_ = 2;
-      g_.shares.resize(std::size_t{2} * static_cast<std::size_t>(c_.lights), {1, 1, 1});
+      g_.shares.resize(std::size_t{2} * static_cast<std::size_t>(c_.lights));
+      for (auto& entry : g_.shares)
+        if (!r_.chance(0.3)) entry = {share(), share(), share()};
     }
     if (c_.linear_bits > 0)
       for (int n = r_.in(1, 3); n > 0; --n) g_.passes.push_back(r_.in(1, (1 << std::max(c_.count_bits, 1)) - 1));
@@ -212,6 +220,7 @@ TEST_CASE("random polygons at the polygon level give the tokens of the span leve
   CAPTURE(test_seed());
   PolygonReport sum;
   std::uint64_t made[3]{};
+  int shadowed = 0;  // frames whose picture shadows change
   for (int round = 0; round < 3000; ++round) {
     Config c = random_config(random, kMaxSize);
     c.units = 0;
@@ -226,6 +235,13 @@ TEST_CASE("random polygons at the polygon level give the tokens of the span leve
     INFO(both.fault);
     REQUIRE(both.fault.empty());
     sum += both.report;
+    FrameGeometry bare = g;
+    bare.volumes.clear();
+    bare.volume_faces.clear();
+    bare.near_edges.clear();
+    std::vector<std::uint32_t> without;
+    make_frame(bare, c, 7, without, {.threads = 1});
+    shadowed += drawn(c, without).pixels != drawn(c, both.spans).pixels ? 1 : 0;
     const Layout layout(c);
     TokenWalk walk(layout, both.polygons);
     int layer = 0;
@@ -236,6 +252,8 @@ TEST_CASE("random polygons at the polygon level give the tokens of the span leve
     }
   }
   for (const std::uint64_t n : made) CHECK(n > 300);
+  CAPTURE(shadowed);
+  CHECK(shadowed > 300);
   for (const PolygonWay way : {PolygonWay::polygon, PolygonWay::crossings, PolygonWay::wide, PolygonWay::rounded,
                                PolygonWay::cut, PolygonWay::words, PolygonWay::active}) {
     CAPTURE(static_cast<int>(way));

@@ -80,6 +80,17 @@ TEST_CASE("a stream file's frames are its words, and its pictures the scene's") 
   }
 }
 
+TEST_CASE("lines longer than MAX_WIDTH are refused by words and without them") {
+  Config narrow = config_of("default");
+  narrow.max_width = 48;
+  SceneFrames frames(std::make_shared<const Scene>(Scene::load("courtyard")), narrow,
+                     {.width = kWidth, .height = kHeight, .frames = 1});
+  for (const bool through_words : {false, true}) {
+    Renderer renderer(frames, through_words);
+    CHECK_THROWS_AS(renderer.image(0), Error);
+  }
+}
+
 TEST_CASE("a frame that its sink ends, at any line, leaves nothing in the renderer") {
   SceneFrames frames(Scene::load("courtyard"), {.width = kWidth, .height = kHeight, .frames = 2});
   const Image wanted = Renderer(frames).image(1);
