@@ -8,8 +8,8 @@
 #include "contract/derived.hpp"
 #include "contract/display_curve.hpp"
 #include "contract/kinds.hpp"
-#include "core/span_value.hpp"
 #include "kage/error.hpp"
+#include "kernels/span_value.hpp"
 #include "number/counted.hpp"
 #include "number/packed_color.hpp"
 

@@ -12,8 +12,8 @@
 
 #include "contract/derived.hpp"
 #include "contract/display_curve.hpp"
-#include "core/span_value.hpp"
 #include "kage/token.hpp"
+#include "kernels/span_value.hpp"
 
 namespace kage {
 

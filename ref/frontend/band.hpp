@@ -19,6 +19,7 @@
 #include "frontend/polygon_spans.hpp"
 #include "frontend/scan.hpp"
 #include "frontend/weight.hpp"
+#include "kernels/span_value.hpp"
 
 namespace kage {
 
@@ -297,11 +298,8 @@ class Band {
 
   /// Whether a part brings nothing of a light to any pixel, at whose ends it has the least and the most.
   [[nodiscard]] static bool is_dark(const Config& c, const SpanToken& part) {
-    const int levels = derived::lane_level_bits(c) - 8;
-    for (std::size_t i = 0; i < static_cast<std::size_t>(c.channels); ++i)
-      for (const int on : {0, part.xr - 1 - part.xl})
-        if ((part.color[i] + on * part.dcolor[i]) >> (c.color_frac - levels) > 0) return false;
-    return true;
+    constexpr std::array<std::uint32_t, 3> kDark{};
+    return span_levels(c, part, part.xl) == kDark && span_levels(c, part, part.xr - 1) == kDark;
   }
 
   [[nodiscard]] bool receives(const SpanToken& part, std::size_t light) const {

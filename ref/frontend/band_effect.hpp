@@ -9,7 +9,6 @@
 // effect").
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 

@@ -7,7 +7,7 @@
 
 #include "contract/derived.hpp"
 #include "contract/kinds.hpp"
-#include "core/span_value.hpp"
+#include "kernels/span_value.hpp"
 #include "number/first_centre.hpp"
 #include "stimulus/edge_tie.hpp"
 

@@ -6,7 +6,7 @@
 
 #include "contract/derived.hpp"
 #include "contract/kinds.hpp"
-#include "core/span_value.hpp"
+#include "kernels/span_value.hpp"
 #include "number/packed_color.hpp"
 
 namespace kage::cosim {

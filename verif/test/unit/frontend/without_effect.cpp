@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "contract/derived.hpp"
-#include "core/span_value.hpp"
 #include "kage/frontend.hpp"
 #include "kage/scene.hpp"
 #include "kage/stream.hpp"
+#include "kernels/span_value.hpp"
 #include "oracle/light_truth.hpp"
 #include "stimulus/shapes.hpp"
 #include "test/support/catch.hpp"
