@@ -2,6 +2,7 @@
 // display_curve, by the nets of line_out, which alone knows which of its pixels are some. A displayed value is the
 // number of thresholds that its level reaches, counted.
 `default_nettype none
+/* verilator lint_off UNUSEDSIGNAL */  // only some stages of a pipeline's bits are looked at
 
 module display_curve_monitor #(
     `include "generated/kage_pixel_params.svh"
@@ -52,6 +53,7 @@ module display_curve_monitor #(
   end
 
 endmodule
+/* verilator lint_on UNUSEDSIGNAL */
 
 bind line_out display_curve_monitor #(
     `include "generated/kage_pixel_param_map.svh"
