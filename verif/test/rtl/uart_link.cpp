@@ -4,6 +4,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,10 @@ namespace {
 
 enum class Damage { none, lost, doubled, corrupted, inserted, any };
 
+/// Damage whose CRC fits by chance (docs/link.md, "What follows"): no link of 16 bits sees it, so what it does
+/// is no matter of the tests.
+struct Undetected {};
+
 /// One direction of the line.
 struct Wire {
   std::deque<std::uint8_t> bytes;
@@ -37,9 +42,10 @@ struct Wire {
   bool cut = false;  // nothing passes
 
   void put(Dice& dice, std::uint8_t byte) {
+    if (const auto frame = at_sender_.take(byte)) sent_.insert(body_of(*frame));
     if (cut) return;
     if (damage == Damage::none || left-- > 0) {
-      bytes.push_back(byte);
+      arrive(byte);
       return;
     }
     left = dice.below(2 * apart);
@@ -47,12 +53,29 @@ struct Wire {
     const auto other = static_cast<std::uint8_t>(dice.percent(30) ? (dice.percent(50) ? 0x7E : 0x7D) : dice.bits(8));
     const Damage now = damage != Damage::any ? damage : static_cast<Damage>(dice.between(1, 4));
     if (now == Damage::lost) return;
-    if (now == Damage::doubled) bytes.push_back(byte);
-    if (now == Damage::inserted) bytes.push_back(other);
+    if (now == Damage::doubled) arrive(byte);
+    if (now == Damage::inserted) arrive(other);
     if (now != Damage::corrupted)
-      bytes.push_back(byte);
+      arrive(byte);
     else
-      bytes.push_back(other != byte ? other : static_cast<std::uint8_t>(byte ^ 1));
+      arrive(other != byte ? other : static_cast<std::uint8_t>(byte ^ 1));
+  }
+
+ private:
+  using Body = std::vector<std::uint8_t>;
+  FrameReader at_sender_, at_taker_;
+  std::set<Body> sent_;
+
+  static Body body_of(const Frame& frame) {
+    Body body{static_cast<std::uint8_t>(frame.kind), frame.sequence};
+    body.insert(body.end(), frame.payload.begin(), frame.payload.end());
+    return body;
+  }
+
+  void arrive(std::uint8_t byte) {
+    bytes.push_back(byte);
+    const auto frame = at_taker_.take(byte);
+    if (frame && !sent_.contains(body_of(*frame))) throw Undetected();
   }
 };
 
@@ -290,8 +313,23 @@ void exact_test() {
   });
 }
 
+/// Rounds on a line that damages. One that meets undetected damage ends there. In 8 rounds both ways some 8000 bodies
+/// are damaged, and each passes with 2^-16: four passing have a chance of 1e-5.
+template <class Body>
+void each_damaged(int rounds, Body body) {
+  int undetected = 0;
+  each_seed(rounds, [&](Dice& dice) {
+    try {
+      body(dice);
+    } catch (const Undetected&) {
+      ++undetected;
+    }
+  });
+  REQUIRE(undetected <= 3);
+}
+
 void damage_test(Damage damage, bool up) {
-  each_seed(4, [&](Dice& dice) {
+  each_damaged(4, [&](Dice& dice) {
     Board<> board(dice);
     Link link(board, {3'000, 40, 0});
     link.hello();
@@ -347,7 +385,7 @@ TEST_CASE("Bytes corrupted on the way to the host", "[uart_link]") { damage_test
 TEST_CASE("Bytes inserted on the way to the host", "[uart_link]") { damage_test(Damage::inserted, false); }
 
 TEST_CASE("Damage of all sorts, both ways at once", "[uart_link]") {
-  each_seed(8, [](Dice& dice) {
+  each_damaged(8, [](Dice& dice) {
     Board<Vuart_link2> board(dice);
     Link link(board, {3'000, 60, 0});
     link.hello();
