@@ -383,12 +383,12 @@ class Band {
   bool has_effect(int y, Line& line, std::uint32_t volume) {
     for (const NearRun& r : near_runs_) effect_->count_all(y, r.xl, r.xr, r.w);
     const bool found = !line.volume.none() && effect_->end_volume(y, line.volume.first, line.volume.end);
-    if (found && span_words_ != nullptr) span_words_->add_volume(volume);
     // A polygon counts on all of its lines, and the volume's other spans with it.
     if (!found && !line.has_polygon) return false;
     for (const FaceSpan& held : line.held) target_.sp(y, target_.last_face(held.face, volume), volume, held.span);
     add_before_all(line);
     join_runs(y);
+    if (span_words_ != nullptr) span_words_->add_volume(volume, line.held.size(), near_runs_.size());
     return true;
   }
 

@@ -56,6 +56,7 @@ PolygonLayout::PolygonLayout(const FrameGeometry& geometry, const Config& config
   find_shapes(config, arena);
   number_volumes();
   choose(config);
+  choose_volumes(config);
   keep_active(config);
   join_spans(config);
   count();
@@ -118,6 +119,29 @@ PolygonWay PolygonLayout::choice(const Config& config, const Prices& prices, std
   // Spans take an AT on each line where none of its neighbours is spans.
   const bool saves = prices.saved(g_->polygons[polygon], s, span, span_words(prices, use), s.lines()) > 0;
   return saves ? way : PolygonWay::words;
+}
+
+// A face that goes as a polygon counts on all of its lines, and has the volume's other spans there with it. Where none
+// does, lines on which the volume has no effect are left out, and spans before all that receives become few fronts.
+void PolygonLayout::choose_volumes(const Config& config) {
+  if (words_ == nullptr || !uses_.has_faces()) return;
+  const Prices prices(config);
+  for (std::size_t v = 0; v < g_->volumes.size(); ++v) {
+    const std::size_t first = uses_.face(g_->volumes[v].first_face);
+    const std::size_t end = first + g_->volumes[v].face_count;
+    std::int64_t apart = 0;
+    for (std::size_t i = first; i < end; ++i) {
+      if (ways_[i] == kUnseen) continue;
+      const std::uint32_t polygon = uses_.polygon_of(i);
+      const PolygonShape& s = shapes_[polygon];
+      const std::int64_t words = words_->of(i) + s.lines() * prices.words(Kind::AT);
+      const bool made = ways_[i] == PolygonWay::polygon;
+      apart += words - (made ? prices.saved(g_->polygons[polygon], s, Kind::SP, words_->of(i), s.lines()) : 0);
+    }
+    if (words_->of_volume(v) >= apart) continue;
+    for (std::size_t i = first; i < end; ++i)
+      if (ways_[i] == PolygonWay::polygon) ways_[i] = PolygonWay::words;
+  }
 }
 
 namespace {

@@ -69,6 +69,7 @@ class PolygonLayout {
   void find_shapes(const Config& config, Arena& arena);
   void number_volumes();
   void choose(const Config& config);
+  void choose_volumes(const Config& config);
   [[nodiscard]] PolygonWay choice(const Config& config, const Prices& prices, std::size_t use) const;
   void keep_active(const Config& config);
   void join_spans(const Config& config);

@@ -79,16 +79,17 @@ class SpanWords {
       : layout_(config), of_use_(uses.count()), volumes_(geometry.volumes.size()) {}
 
   /// A use has such a span.
-  void add(std::size_t use, Kind kind) {
-    of_use_[use] += static_cast<std::uint32_t>(layout_.words[static_cast<std::size_t>(kind)]);
+  void add(std::size_t use, Kind kind) { of_use_[use] += static_cast<std::uint32_t>(words(kind)); }
+  /// A volume has an effect on a line, by so many spans and fronts as are left of all of its faces together.
+  void add_volume(std::size_t volume, std::size_t spans, std::size_t fronts) {
+    volumes_[volume] +=
+        static_cast<std::uint32_t>(spans * words(Kind::SP) + fronts * words(Kind::NC) + words(Kind::AT));
   }
-  /// A volume has an effect on some line.
-  void add_volume(std::size_t volume) { volumes_[volume] = 1; }
 
   /// Add those of other bands.
   SpanWords& operator+=(const SpanWords& other) {
     for (std::size_t i = 0; i < of_use_.size(); ++i) of_use_[i] += other.of_use_[i];
-    for (std::size_t i = 0; i < volumes_.size(); ++i) volumes_[i] |= other.volumes_[i];
+    for (std::size_t i = 0; i < volumes_.size(); ++i) volumes_[i] += other.volumes_[i];
     return *this;
   }
 
@@ -101,11 +102,17 @@ class SpanWords {
   }
 
   [[nodiscard]] std::uint32_t of(std::size_t use) const { return of_use_[use]; }
+  /// Those of a volume of which no face goes as a polygon, with an AT on each line.
+  [[nodiscard]] std::uint32_t of_volume(std::size_t volume) const { return volumes_[volume]; }
 
  private:
+  [[nodiscard]] std::size_t words(Kind kind) const {
+    return static_cast<std::size_t>(layout_.words[static_cast<std::size_t>(kind)]);
+  }
+
   Layout layout_;
   std::vector<std::uint32_t> of_use_;
-  std::vector<std::uint8_t> volumes_;
+  std::vector<std::uint32_t> volumes_;
 };
 
 }  // namespace kage
