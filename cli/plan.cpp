@@ -218,7 +218,8 @@ std::string text_of(const PlanCommand& o, const Plan& plan, const PlanOptions& o
         options.clock->mhz, o.device, device_clock(o.device, options.front_end).core);
   text += fmt::format("# costs {}\n", cost_text(plan, plan.config, plan.cost));
   if (plan.polygon_words > 0) {
-    text += "# words and clocks are those with spans from the host; cells and RAM are with the front end\n";
+    text +=
+        "# words are those with spans from the host; clocks are those behind the front end, cells and RAM with it\n";
     text += plan.polygon_words < plan.cost.words
                 ? fmt::format("# at the polygon level the frames take {:.1f} times fewer words, {}\n",
                               static_cast<double>(plan.cost.words) / static_cast<double>(plan.polygon_words),

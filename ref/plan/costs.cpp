@@ -26,26 +26,39 @@ std::vector<Config> arrangements_of(const Config& base) {
 }
 
 std::vector<PlanCandidate> costs_of(std::span<const PlannedScene> scenes, const Config& base, const std::string& way,
-                                    const FrameStep& step) {
+                                    bool front_end, const FrameStep& step) {
   std::vector<PlanCandidate> out;
   for (const Config& c : arrangements_of(base)) out.push_back({way, c, {}});
   PlanCost shared;
-  GoldenCore core(base);
+  // How many polygons it must hold is not known yet: as many as any.
+  const int active = front_end ? kGreatest.active : 0;
+  Config made_for = base;
+  made_for.active = active;
+  GoldenCore core(made_for);
   const LineSink nobody = [](int, std::span<const std::uint8_t>) {};
-  TokenPieces tokens(base);
+  TokenPieces tokens(made_for);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     std::vector<LineClockCounter> counters;
-    for (const PlanCandidate& c : out) counters.emplace_back(c.config);
-    SceneFrames frames(scenes[s].scene, base, scenes[s].draw);
+    for (const PlanCandidate& c : out) {
+      Config with = c.config;
+      with.active = active;
+      counters.emplace_back(with);
+    }
+    DrawOptions draw = scenes[s].draw;
+    if (front_end) draw.level = Level::polygons;
+    SceneFrames frames(scenes[s].scene, made_for, draw);
+    SceneFrames by_spans(scenes[s].scene, base, scenes[s].draw);
     for (int i = 0; i < frames.frames(); ++i) {
       step();
-      FrameHeader header;
-      header.width = scenes[s].draw.width;
-      header.height = scenes[s].draw.height;
-      for (LineClockCounter& counter : counters) counter.begin(i, header);
+      const auto count_words = [&](std::span<const std::uint32_t> words) { shared.words += words.size(); };
+      if (front_end) by_spans.frame(i, count_words);
       tokens.start();
+      bool begun = false;
       frames.frame(i, [&](std::span<const std::uint32_t> words) {
-        shared.words += words.size();
+        if (!front_end) count_words(words);
+        for (LineClockCounter& counter : counters)
+          if (!begun) counter.begin(i, FrameHeader::read(words));
+        begun = true;
         tokens.feed(words, [&](const Token& token) {
           for (LineClockCounter& counter : counters) counter.token(token);
         });

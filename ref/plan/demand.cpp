@@ -28,7 +28,9 @@ void each_frame(std::span<const PlannedScene> scenes, const Config& config, cons
                 OfToken of_token) {
   TokenPieces tokens(config);
   for (std::size_t s = 0; s < scenes.size(); ++s) {
-    SceneFrames frames(scenes[s].scene, config, scenes[s].draw);
+    DrawOptions draw = scenes[s].draw;
+    draw.all_spans = true;  // one that was cut to what is seen goes on with the steps of the whole
+    SceneFrames frames(scenes[s].scene, config, draw);
     for (int i = 0; i < frames.frames(); ++i) {
       step();
       PlanPlace at{.scene = static_cast<int>(s), .frame = i, .line = 0};

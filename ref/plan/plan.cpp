@@ -191,7 +191,8 @@ class Planner {
           plan::depth_error_share(demand.depth_span.value, way.widths.config.z_bits, way.widths.config.z_frac,
                                   features_.needs.width, features_.needs.height);
     }
-    way.all = plan::costs_of(scenes_, way.widths.config, name_of(demand, units), [this] { step(); });
+    way.all =
+        plan::costs_of(scenes_, way.widths.config, name_of(demand, units), options_.front_end, [this] { step(); });
     if (options_.clock)
       for (PlanCandidate& c : way.all) c.cost.meets_clock = c.cost.needed_line <= line_clocks();
     ways_.push_back(std::move(way));

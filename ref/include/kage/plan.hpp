@@ -94,7 +94,7 @@ struct PlanOptions {
 /// Cost of a configuration for the planned frames.
 struct PlanCost {
   std::uint64_t words = 0;       ///< of all frames, at the span level
-  std::uint64_t clocks = 0;      ///< of all frames, by design (docs/rtl.md, "Clocks")
+  std::uint64_t clocks = 0;      ///< of all frames, by design (docs/rtl.md, "Clocks"); behind a front end if it has one
   std::uint64_t worst_line = 0;  ///< clocks of the line that takes most
   PlanPlace worst_at;            ///< that line
   /// Clocks that a line of a display must have, the two lines of the way out used; with counters and translucency those
