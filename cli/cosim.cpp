@@ -103,7 +103,7 @@ void add_cosim(Program& program, Action& action) {
       "  kage cosim model.glb --size 320x240 --frames 2 --config full --out pictures\n"
       "  kage cosim courtyard.kage --json -\n"
       "  kage cosim courtyard --front-end rtl --stages   (the spans that the front end makes, token by token)\n"
-      "  kage cosim courtyard --fault wrong_compare\n"
+      "  kage cosim courtyard --all-spans --fault wrong_compare\n"
       "  kage cosim courtyard --degrade --netlist ice40 --config tiny --size 64x48   (an FPGA's cells for the RTL)\n"
       "  kage cosim courtyard penumbra glass --size 160x120\n"
       "  kage cosim random:mixed --frames 1000 --seed 5 --config glass --coverage\n"

@@ -112,12 +112,13 @@ struct Explained {
   PixelHistory history;
   std::size_t touching = 0;  ///< tokens, of which the history may have only those that changed something
   std::map<std::uint32_t, TokenSource> sources;  ///< by PixelTouch::nth
+  std::optional<std::vector<LeftOut>> left_out;  ///< what --all-spans writes beside them
   std::vector<cosim::RtlTouch> rtl;              ///< with --rtl
 };
 
 Explained explained(const ExplainCommand& o, cosim::Source& source, const Pixel& at) {
   const Config& config = source.config();
-  Explained e{.at = at, .history = {}, .sources = {}, .rtl = {}};
+  Explained e{.at = at, .history = {}, .sources = {}, .left_out = {}, .rtl = {}};
   const std::vector<std::uint32_t> words = source.words(o.frame);
   try {
     e.history = explain_pixel(config, words, at.x, at.y);
@@ -125,7 +126,10 @@ Explained explained(const ExplainCommand& o, cosim::Source& source, const Pixel&
     throw Error(fmt::format("{}: {}", o.input, error.what()));
   }
   const std::optional<Provenance> provenance = source.provenance(o.frame);
-  if (provenance) e.sources = provenance->of_history(config, words, e.history);
+  if (provenance) {
+    e.sources = provenance->of_history(config, words, e.history);
+    e.left_out = source.left_out(o.frame, {&e.history, &e.sources});
+  }
   if (o.rtl) e.rtl = watch_rtl(o, source, at);
   e.touching = e.history.touches.size();
   if (!o.changes) return e;
@@ -174,6 +178,10 @@ Json to_json(const Explained& e, const ExplainCommand& o, const Config& config) 
   j["touches"] = std::move(touches);
   j["color"] = std::vector<int>(e.history.color.begin(), e.history.color.begin() + config.channels);
   j["color_text"] = e.history.color_text;
+  j["left_out"] = e.left_out ? Json::array() : Json(nullptr);
+  for (const LeftOut& l : e.left_out.value_or(std::vector<LeftOut>()))
+    j["left_out"].push_back(
+        {{"kind", kKindNames[static_cast<std::size_t>(l.kind)]}, {"tokens", l.tokens}, {"why", l.why}});
   j["rtl"] = o.rtl ? Json::array() : Json(nullptr);
   for (const cosim::RtlTouch& t : e.rtl)
     j["rtl"].push_back({{"token", t.token},
@@ -206,6 +214,10 @@ void print(const Explained& e, const ExplainCommand& o, const Config& config) {
   }
   fmt::print("            {}\n", h.color_text);
   rtl_lines.before(std::numeric_limits<std::uint32_t>::max());
+  if (e.left_out && !e.left_out->empty()) {
+    fmt::print("            left out, for it changes nothing here (--all-spans shows it):\n");
+    for (const LeftOut& l : *e.left_out) fmt::print("              {}\n", l.text());
+  }
 }
 
 int run(const ExplainCommand& o) {
@@ -230,7 +242,7 @@ void add_explain(Program& program, Action& action) {
   Command c = program.add("explain", "Tell the history of a pixel: every token that touched it, and what it did",
                           "  kage explain courtyard --frame 2 --pixel 316,116\n"
                           "  kage explain courtyard.kage --pixel 12,40 --json -\n"
-                          "  kage explain courtyard --pixel 316,116 --rtl --check --fault wrong_compare\n"
+                          "  kage explain courtyard --pixel 316,116 --rtl --check --all-spans --fault wrong_compare\n"
                           "  kage explain penumbra --pixel 320,300 --changes   (soft shadows take many tokens)\n"
                           "docs/glossary.md says what the words mean, docs/stream.md what each token does.");
   const auto o = std::make_shared<ExplainCommand>();

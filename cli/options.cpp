@@ -287,6 +287,9 @@ void options_of_frames(Command command, cosim::SourceOptions& options) {
   option_config(command, options);
   option_degrade(command, options);
   option_units_only(command, options);
+  command.add_flag("--all-spans", options.all_spans,
+                   "write the spans that have no effect on any pixel, too, and the ends of volumes without one "
+                   "(docs/shadows.md, \"Without effect\"); no picture changes");
   options_of_pictures(command, options);
 }
 

@@ -43,7 +43,7 @@ void option_config(Command command, cosim::SourceOptions& options);
 /// --classes, --max-shading, --sub-bits, --seed; and --threads, --allow-outside. `frames` says how many are made
 /// without --frames.
 void options_of_pictures(Command command, cosim::SourceOptions& options, const char* frames = "the scene's own");
-/// Options of every command that makes frames for a core: those, and --config, --degrade, --units-only.
+/// Options of every command that makes frames for a core: those, and --config, --degrade, --units-only, --all-spans.
 void options_of_frames(Command command, cosim::SourceOptions& options);
 void option_max_fragments(Command command, cosim::SourceOptions& options);
 void option_seed(Command command, std::uint64_t& seed);

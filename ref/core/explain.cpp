@@ -113,7 +113,7 @@ class History : public CoreObserver {
         if (*touch_.z >= from.z) return "not counted: " + order(*touch_.z);
         return fmt::format("counted: {}; DSF {} {:+} = {}", order(*touch_.z), from.dsf, t.span.w, to.dsf);
       case Kind::NC:
-        return fmt::format("the way begins in the volume: DSF {} {:+} = {}", from.dsf, t.span.w, to.dsf);
+        return fmt::format("counted, whatever its depth: DSF {} {:+} = {}", from.dsf, t.span.w, to.dsf);
       case Kind::IF:
         return fmt::format("the eye is in the volume for all the line: bias {}", line.bias());
       case Kind::EV: {

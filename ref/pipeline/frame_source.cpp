@@ -55,17 +55,17 @@ SceneFrames::SceneFrames(Scene scene, const DrawOptions& options)
 
 TokenCounts SceneFrames::frame(int index, const WordSink& sink) {
   FrameParts parts;
-  return make(index, sink, parts, nullptr);
+  return make(index, sink, parts, {options_.all_spans, nullptr});
 }
 
 TokenCounts SceneFrames::frame(int index, const WordSink& sink, FrameParts& parts) {
-  return make(index, sink, parts, nullptr);
+  return make(index, sink, parts, {options_.all_spans, nullptr});
 }
 
-Provenance SceneFrames::provenance(int index, const WordSink& sink) {
+Provenance SceneFrames::provenance(int index, const WordSink& sink, bool all_spans) {
   FrameParts parts;
   FrameOrigins origins;
-  make(index, sink, parts, &origins);
+  make(index, sink, parts, {all_spans, &origins});
   return {scene_->objects(), std::move(parts.scene), std::move(parts.geometry), std::move(origins)};
 }
 
@@ -89,23 +89,23 @@ void SceneFrames::guarded(int index, FrameParts& parts, Make make) {
   }
 }
 
-TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts, FrameOrigins* origins) {
+TokenCounts SceneFrames::make(int index, const WordSink& sink, FrameParts& parts, const Wanted& wanted) {
   FrameChecker checker(config_, fmt::format("{}: frame {}", options_.name, index), 0);
   guarded(index, parts, [&](bool& begun) {
     make_frame(parts.geometry, config_, static_cast<std::uint32_t>(index),
                [&](std::span<const std::uint32_t> words) {
                  begun = true;
-                 if (origins == nullptr) checker.feed(words);  // with origins the frame was checked before
+                 if (wanted.origins == nullptr) checker.feed(words);  // with origins the frame was checked before
                  sink(words);
                },
                {.threads = options_.threads,
                 .report = &parts.polyhedra,
-                .origins = origins,
+                .origins = wanted.origins,
                 .level = options_.level,
                 .polygons = &parts.polygons,
-                .all_spans = options_.all_spans});
+                .all_spans = wanted.all_spans});
   });
-  return origins == nullptr ? checker.finish() : TokenCounts{};
+  return wanted.origins == nullptr ? checker.finish() : TokenCounts{};
 }
 
 bool SceneFrames::draw(int index, const SizeSink& start, const LineSink& sink) {

@@ -43,12 +43,13 @@ TokenSource Provenance::of_volume(const TokenOrigin& origin, Kind kind) const {
     if (cap) s = of_face(origin.polygon);
     s.role = cap ? "cap" : "side";
   } else {
-    s.role = kind == Kind::EV ? "end" : "section with the near plane";
+    s.role = kind == Kind::EV ? "end" : "front";
   }
   if (s.object.empty()) {
     s.component = static_cast<int>(volume.component);
     s.object = object_of(volume.component);
   }
+  s.volume = static_cast<int>(origin.volume);
   s.light = geometry_.sample_light.empty() ? 0 : geometry_.sample_light[volume.sample];
   if (geometry_.sample_light.empty()) return s;
   s.sample = 0;

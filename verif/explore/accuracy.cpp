@@ -90,11 +90,13 @@ class LayerTaker : public CoreObserver {
   int y_ = 0;  // the line at hand
 };
 
-/// The words of a geometry, and the golden core's picture of them.
+/// The words of a geometry with all spans, so that shadows are counted where none is seen, too; and the golden core's
+/// picture of them.
 void run(const FrameGeometry& g, const Config& config, int threads, CoreObserver* observer, const LineSink& sink) {
   GoldenCore core(config);
   core.observe(observer);
-  make_frame(g, config, 0, [&](std::span<const std::uint32_t> words) { core.feed(words, sink); }, {.threads = threads});
+  make_frame(g, config, 0, [&](std::span<const std::uint32_t> words) { core.feed(words, sink); },
+             {.threads = threads, .all_spans = true});
   if (core.finish(sink).error != ErrorCode::NONE)
     throw std::logic_error("the golden core refuses what the front end made");
 }

@@ -93,8 +93,32 @@ Json error_json(const PictureError& e) {
 
 bool is_built(const Config& c) { return c.arrangement != 0 || c.max_width <= kMostProcessors; }
 
+/// Pixels along which depth goes on by steps, at most: in spans as the front end makes them, before it cuts them to
+/// what is seen, for what is left goes on with the steps of the whole.
+int longest_depth(SweepScene& scene, const SweepPoint& point) {
+  int longest = 0;
+  TokenPieces tokens(point.config);
+  DrawOptions draw = scene.draw_options(point);
+  draw.all_spans = true;
+  SceneFrames frames(scene.scene(), point.config, draw);
+  for (int i = 0; i < scene.frames(); ++i) {
+    tokens.start();
+    FrameParts parts;
+    const auto take = [&](std::span<const std::uint32_t> piece) {
+      tokens.feed(piece, [&](const Token& t) {
+        if (t.kind == Kind::SEG) longest = std::max(longest, t.segment.dx);
+        if (info_of(t.kind).depth) longest = std::max(longest, t.span.xr - t.span.xl);
+      });
+    };
+    frames.frame(i, take, parts);
+    longest = std::max(longest, plan::longest_diced(parts.geometry));
+  }
+  return longest;
+}
+
 PointWords words_of(SweepScene& scene, const SweepPoint& point) {
   PointWords out;
+  out.longest_depth = longest_depth(scene, point);
   PhaseCounter counter(point.config);
   TokenPieces tokens(point.config);
   SceneFrames frames(scene.scene(), point.config, scene.draw_options(point));
@@ -106,14 +130,9 @@ PointWords words_of(SweepScene& scene, const SweepPoint& point) {
     FrameParts parts;
     const auto take = [&](std::span<const std::uint32_t> piece) {
       words.insert(words.end(), piece.begin(), piece.end());
-      tokens.feed(piece, [&](const Token& t) {
-        counter.token(t);
-        if (t.kind == Kind::SEG) out.longest_depth = std::max(out.longest_depth, t.segment.dx);
-        if (info_of(t.kind).depth) out.longest_depth = std::max(out.longest_depth, t.span.xr - t.span.xl);
-      });
+      tokens.feed(piece, [&](const Token& t) { counter.token(t); });
     };
-    frames.frame(i, take, parts);
-    out.longest_depth = std::max(out.longest_depth, plan::longest_diced(parts.geometry));
+    frames.frame(i, take);
     out.words += words.size();
     out.foretold = std::accumulate(counter.lines().begin(), counter.lines().end(), out.foretold);
     hash.add(static_cast<std::uint64_t>(words.size()));

@@ -63,7 +63,7 @@ inline std::vector<std::uint32_t> pixels_of(const std::vector<std::uint32_t>& wo
 inline Picture picture(const FrameGeometry& g, const Config& config) {
   Picture p;
   make_frame(g, config, 0, [&](std::span<const std::uint32_t> w) { p.words.insert(p.words.end(), w.begin(), w.end()); },
-             {.threads = 1, .report = &p.report});
+             {.threads = 1, .report = &p.report, .all_spans = true});
   p.counts = check_frame(config, p.words, "front end", 0);
   p.pixels = pixels_of(p.words, config);
   return p;

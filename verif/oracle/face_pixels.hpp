@@ -15,7 +15,7 @@ namespace kage::verif {
 
 inline std::vector<std::uint32_t> words_of(const FrameGeometry& g, const Config& config, int threads = 1) {
   std::vector<std::uint32_t> words;
-  make_frame(g, config, 0, words, {.threads = threads});
+  make_frame(g, config, 0, words, {.threads = threads, .all_spans = true});
   check_frame(config, words, "front end", 0);
   return words;
 }

@@ -262,7 +262,7 @@ enum class Kind : std::uint8_t {
   TREE = 5,  ///< take the compare tree's line
   OP = 6,  ///< opaque span
   SP = 7,  ///< shadow span
-  NC = 8,  ///< near-cap span
+  NC = 8,  ///< shadow span that counts at each of its pixels, without a look at depth
   IF = 9,  ///< the eye is inside the volume for the whole line
   EV = 10,  ///< end of a volume
   ES = 11,  ///< end of a light sample

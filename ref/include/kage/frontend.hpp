@@ -117,7 +117,7 @@ struct FrameOptions {
   PolygonReport* polygons = nullptr;  ///< filled with the words; at the polygon level
   /// Spans and ends of volumes that have no effect on any pixel are written too. Without them the pixels are the same
   /// (docs/shadows.md, "Without effect"). At the polygon level a polygon is left out whole or not at all.
-  bool all_spans = true;
+  bool all_spans = false;
 };
 
 /// Makes the frame's words from first to last. Lines are made in bands and handed on band by band. Cost is linear in

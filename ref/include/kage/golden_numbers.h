@@ -67,7 +67,7 @@ enum {
   KAGE_KIND_TREE = 5, /**< take the compare tree's line */
   KAGE_KIND_OP = 6, /**< opaque span */
   KAGE_KIND_SP = 7, /**< shadow span */
-  KAGE_KIND_NC = 8, /**< near-cap span */
+  KAGE_KIND_NC = 8, /**< shadow span that counts at each of its pixels, without a look at depth */
   KAGE_KIND_IF = 9, /**< the eye is inside the volume for the whole line */
   KAGE_KIND_EV = 10, /**< end of a volume */
   KAGE_KIND_ES = 11, /**< end of a light sample */

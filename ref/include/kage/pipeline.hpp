@@ -68,7 +68,7 @@ struct DrawOptions {
   OrderBuildOptions order = {};  ///< of translucent faces
   int threads = 0;               ///< 0: one per processor. The words do not depend on it
   Level level = Level::spans;    ///< FrameOptions::level: with polygons, the configuration has ACTIVE > 0
-  bool all_spans = true;         ///< FrameOptions::all_spans
+  bool all_spans = false;        ///< FrameOptions::all_spans
   std::string name = {};         ///< what messages call the scene; empty: Scene::name()
 };
 
@@ -135,14 +135,20 @@ class SceneFrames : public FrameSource {
   /// Tells what the tokens of a frame come from.
   /// @param index 0 .. frames() - 1
   /// @param sink gets the frame's words, which are not checked once more
+  /// @param all_spans DrawOptions::all_spans of this frame
   /// @return the frame's geometry with the names behind it
-  Provenance provenance(int index, const WordSink& sink);
+  Provenance provenance(int index, const WordSink& sink, bool all_spans);
 
   /// @return what is drawn
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
  private:
-  TokenCounts make(int index, const WordSink& sink, FrameParts& parts, FrameOrigins* origins);
+  /// What is wanted of a frame's words; with origins they are not checked.
+  struct Wanted {
+    bool all_spans;
+    FrameOrigins* origins;
+  };
+  TokenCounts make(int index, const WordSink& sink, FrameParts& parts, const Wanted& wanted);
   template <class Make>
   void guarded(int index, FrameParts& parts, Make make);
 

@@ -20,13 +20,15 @@ namespace kage {
 
 /// The part of the scene that a token draws, or that casts the shadow which the token is of.
 struct TokenSource {
-  std::string role;    ///< "face", "polyhedron", "cap", "side", "section with the near plane" or "end"; of a volume but
-                       ///< for the first two
+  /// "face" or "polyhedron"; of a volume "cap", "side", "front" or "end". Its front is what lies before all that
+  /// receives its shadow: its section with the near plane, and caps and sides that need no comparison.
+  std::string role;
   std::string object;  ///< its name in the file
   int component = -1;  ///< of the scene; a volume may be of several, then the first
   int face = -1;       ///< number in its object, as in the file; -1: of no single face
   int light = -1;      ///< of a volume, from 0
   int sample = -1;     ///< of that light, from 0
+  int volume = -1;     ///< into FrameGeometry::volumes
 
   /// Puts the source in words.
   /// @return "the side of the shadow of gem, face 3, light 0 sample 2"
@@ -77,5 +79,30 @@ class Provenance {
   FrameGeometry geometry_;
   FrameOrigins origins_;
 };
+
+/// Tokens of a kind that a pixel has no need of, all for one reason.
+struct LeftOut {
+  Kind kind = Kind::SP;      ///< of the tokens
+  std::uint32_t tokens = 0;  ///< how many, 1 or more
+  std::string why;           ///< "not before what is drawn"
+
+  /// Puts them in words.
+  /// @return "12 SP: not before what is drawn"
+  [[nodiscard]] std::string text() const;
+
+  bool operator==(const LeftOut&) const = default;
+};
+
+/// A pixel's history with the sources of its tokens.
+struct ToldHistory {
+  const PixelHistory* history = nullptr;
+  const std::map<std::uint32_t, TokenSource>* from = nullptr;  ///< Provenance::of_history()
+};
+
+/// Tells what a frame leaves out at a pixel (docs/shadows.md, "Without effect").
+/// @param all the pixel's history in the frame with FrameOptions::all_spans
+/// @param kept its history in the frame without
+/// @return what touches the pixel in the first and not in the second, in the order of the first of each
+std::vector<LeftOut> left_out(const ToldHistory& all, const ToldHistory& kept);
 
 }  // namespace kage

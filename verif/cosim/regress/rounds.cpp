@@ -67,6 +67,7 @@ class Round {
     o.size = {width, std::max(1, width * 3 / 4)};
     o.size_given = true;
     o.degrade = true;
+    o.all_spans = true;  // the RTL has ties and hidden spans to compare, too
     // Scenes and patterns of stalls would come round together: 4 divides 12.
     add(scene, c, static_cast<std::size_t>(round_) / builtin_scenes().size(), std::move(o));
   }

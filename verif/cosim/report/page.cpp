@@ -125,6 +125,12 @@ void write_bands(std::ostream& out, const Page& page, std::size_t room) {
   }
 }
 
+Json left_out_of(const ToldPixel& p) {
+  Json all = Json::array();
+  for (const LeftOut& l : p.left_out) all.push_back(l.text());
+  return all;
+}
+
 Json told_of(const Page& page) {
   Json told = Json::array();
   std::size_t bytes = 0;
@@ -155,6 +161,7 @@ Json told_of(const Page& page) {
            {"y", p.history.y},
            {"touches", std::move(touches)},
            {"color_text", p.history.color_text},
+           {"left_out", left_out_of(p)},
            {"rtl", std::move(rtl)}};
     bytes += script_text(j).size();
     if (bytes > kToldBytes) break;

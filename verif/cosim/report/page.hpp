@@ -15,6 +15,7 @@
 #include "cosim/run.hpp"
 #include "file/temp_file.hpp"
 #include "kage/explain.hpp"
+#include "kage/provenance.hpp"
 
 namespace kage::report {
 
@@ -29,6 +30,7 @@ struct ToldPixel {
   PixelHistory history;
   std::vector<cosim::RtlTouch> rtl;
   std::map<std::uint32_t, std::string> from;  ///< by PixelTouch::nth: which part of the scene it is of
+  std::vector<LeftOut> left_out;              ///< tokens that --all-spans writes beside these
 };
 
 /// Contents of the report page. All text may be anything: it is escaped.

@@ -36,6 +36,7 @@ void keys(V& v, Of<OptionsRecord>) {
   v("classes", &R::classes);
   v("max_shading", &R::max_shading);
   v("sub_bits", &R::sub_bits);
+  v("all_spans", &R::all_spans);
 }
 
 template <class V>

@@ -35,6 +35,7 @@ struct OptionsRecord {
   int classes = 0;
   int max_shading = 0;
   int sub_bits = 0;
+  bool all_spans = false;  ///< those without effect too
 
   bool operator==(const OptionsRecord&) const = default;
 };

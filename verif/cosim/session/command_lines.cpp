@@ -41,6 +41,7 @@ void pictures(Line& line, const SourceOptions& o) {
   line.option("--config", o.config, usual.config);
   line.flag("--degrade", o.degrade);
   line.flag("--units-only", o.units_only);
+  line.flag("--all-spans", o.all_spans);
   if (o.size_given || o.size.width != usual.size.width || o.size.height != usual.size.height)
     line.option("--size", fmt::format("{}x{}", o.size.width, o.size.height), std::string());
   line.option("--frames", o.frames, usual.frames);

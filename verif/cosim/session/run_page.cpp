@@ -128,9 +128,11 @@ void RunReport::tell_pixels(report::Page& page, const std::optional<Divergence>&
     report::ToldPixel told;
     told.frame = frame;
     told.history = explain_pixel(config, words, x, y);
-    if (provenance)
-      for (const auto& [nth, source] : provenance->of_history(config, words, told.history))
-        told.from[nth] = source.text();
+    if (provenance) {
+      const auto sources = provenance->of_history(config, words, told.history);
+      for (const auto& [nth, source] : sources) told.from[nth] = source.text();
+      told.left_out = source_.left_out(frame, {&told.history, &sources}).value_or(std::vector<LeftOut>());
+    }
     try {
       if (watch) told.rtl = cosim::watch_pixel(from, frame, feed, config, options, x, y);
     } catch (const Error& e) {

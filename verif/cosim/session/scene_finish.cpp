@@ -32,7 +32,8 @@ report::OptionsRecord options_of(const CosimOptions& o, Level level) {
           .samples = o.samples,
           .classes = o.classes,
           .max_shading = o.max_shading,
-          .sub_bits = o.sub_bits};
+          .sub_bits = o.sub_bits,
+          .all_spans = o.all_spans};
 }
 
 }  // namespace
@@ -168,8 +169,8 @@ report::SceneRecord SceneRun::finish(TempFiles& files) {
   report::SceneRecord record = record_of(r);
   if (r.same && !source.is_random() && !o_.silent && rtl_changed(o_.rtl))
     source.note(
-        "the RTL is not the commit's, and these frames show no difference; random frames reach more than a "
-        "scene does: kage cosim random:mixed, and kage regress");
+        "the RTL is not the commit's, and these frames show no difference; --all-spans has the spans without effect, "
+        "too, and random frames reach more than a scene does: kage cosim random:mixed, and kage regress");
   const bool whole = after_verdict([&] {
     look_into(files, r, search);
     if (r.first_difference && source.is_random() && !o_.out.empty() && !r.first_difference->of_registers())

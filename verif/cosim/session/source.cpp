@@ -155,11 +155,29 @@ TokenCounts Source::frame_of_scene(int index, const WordSink& sink) {
 
 std::optional<Provenance> Source::provenance(int index) {
   if (!scene_) return std::nullopt;
+  return provenance(index, options_.all_spans, [](std::span<const std::uint32_t>) {});
+}
+
+std::optional<std::vector<LeftOut>> Source::left_out(int index, const ToldHistory& kept) {
+  if (!scene_ || options_.all_spans) return std::nullopt;
+  std::vector<std::uint32_t> words;
+  const Provenance origins = provenance(index, true, [&](std::span<const std::uint32_t> piece) {
+    words.insert(words.end(), piece.begin(), piece.end());
+  });
+  const Config& c = config_.config;
+  const PixelHistory history = explain_pixel(c, words, kept.history->x, kept.history->y);
+  const auto from = origins.of_history(c, words, history);
+  return kage::left_out({&history, &from}, kept);
+}
+
+Provenance Source::provenance(int index, bool all_spans, const WordSink& sink) {
+  const auto taken = [&](std::span<const std::uint32_t> words) {
+    host_.check();
+    if (progress_) progress_->clear();
+    sink(words);
+  };
   try {
-    return scene_frames_->provenance(index, [&](std::span<const std::uint32_t>) {
-      host_.check();
-      if (progress_) progress_->clear();
-    });
+    return scene_frames_->provenance(index, taken, all_spans);
   } catch (const TooManyFragments& e) {
     refuse_fragments(fmt::format("{}: frame {}", options_.input, index), e);
   }

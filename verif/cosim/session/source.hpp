@@ -116,7 +116,12 @@ class Source : public FrameSource {
   /// The origins of the tokens of frame `index`; nothing if the frames are a stream's.
   [[nodiscard]] std::optional<Provenance> provenance(int index);
 
+  /// What frame `index` leaves out at a pixel whose history in it is `kept`; nothing if its frames leave nothing out,
+  /// as with --all-spans, and those of streams and of chance.
+  [[nodiscard]] std::optional<std::vector<LeftOut>> left_out(int index, const ToldHistory& kept);
+
  private:
+  Provenance provenance(int index, bool all_spans, const WordSink& sink);
   TokenCounts frame_of_stream(int index, const WordSink& sink);
   TokenCounts frame_of_scene(int index, const WordSink& sink);
   void record(int index, const FrameParts& parts);

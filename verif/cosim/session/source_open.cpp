@@ -72,6 +72,7 @@ DrawOptions draw_options(const SourceOptions& options) {
   draw.look.fit = options.degrade;
   draw.threads = options.threads;
   draw.level = options.level;
+  draw.all_spans = options.all_spans;
   return draw;
 }
 
@@ -109,6 +110,7 @@ void Source::open_random(const SourceOptions& options, verif::Manner manner) {
   refuse(options.max_shading != usual.max_shading, "--max-shading", "have no faces to be cut");
   refuse(options.sub_bits != usual.sub_bits, "--sub-bits", "have no positions to be rounded");
   refuse(options.cull, "--cull", "have no faces to be left out");
+  refuse(options.all_spans, "--all-spans", "have no spans left out");
   refuse(options.alpha != usual.alpha, "--alpha", "have alphas of their own");
   refuse(options.allow_outside, "--allow-outside", "need no files");
   const std::optional<NamedConfig> asked = asked_config(options);
@@ -134,6 +136,8 @@ void Source::open_stream(const SourceOptions& options) {
   if (options.sub_bits != SourceOptions{}.sub_bits)
     throw Error(fmt::format("{}: --sub-bits: only a scene takes it, and this is a stream", options.input));
   if (options.cull) throw Error(fmt::format("{}: --cull: only a scene takes it, and this is a stream", options.input));
+  if (options.all_spans)
+    throw Error(fmt::format("{}: --all-spans: only a scene takes it, and this is a stream", options.input));
   if (options.alpha != 1) throw Error(fmt::format("{}: --alpha: a stream has its own alphas", options.input));
   if (!options.level_option.empty())
     throw Error(fmt::format("{}: {}: a stream has its own level", options.input, options.level_option));

@@ -17,7 +17,7 @@ for frame in 0 1 2; do [ -s out/courtyard_000$frame.png ] || fail "no picture of
 # The pictures are those of kage render; the second run needs no build; a stream goes the same way; --json - has nothing else.
 expect 0 "$kage" render courtyard --size 160x120 --frames 3 --out direct
 expect 0 "$kage" diff out/courtyard_0002.png direct/courtyard_0002.png
-expect 0 "$kage" stream courtyard --size 160x120 --frames 3 --out c.kage
+expect 0 "$kage" stream courtyard --size 160x120 --frames 3 --all-spans --out c.kage
 expect 0 "$kage" cosim c.kage --out through --json -
 cp stdout s.json
 json s.json 'j["same"] is True and j["build_seconds"]==0 and j["pixels_compared"]==57600'
@@ -75,7 +75,7 @@ trouble SIZE "$kage" cosim edges.kage --config narrow.yaml --out narrow
 # The verdict stands whatever becomes of what is said about it: a waveform or a page that cannot be written is a note.
 mkdir -p blocked/courtyard_0000.fst blocked/report.html
 touch blocked/courtyard_0000.fst/x blocked/report.html/x
-expect 1 "$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out blocked --json blocked.json --junit blocked.xml
+expect 1 "$kage" cosim courtyard --size 64x48 --frames 1 --all-spans --fault wrong_compare --out blocked --json blocked.json --junit blocked.xml
 json blocked.json 'j["same"] is False and j["report"] is None and j["first_difference"]["waveform"] is None'
 json blocked.json 'j["first_difference"]["stage"]=="pixel_banked" and [n for n in j["notes"] if "no waveform" in n] and [n for n in j["notes"] if "no report" in n]'
 grep -q '<failure' blocked.xml || fail "no JUnit where waveform and page could not be written"
@@ -85,7 +85,7 @@ json narrow.json 'j["same"] and j["frames"]==8 and j["report"] is None and any("
 # So it does for who has waited long enough.
 for ((i = 0; i < 50; ++i)); do
   rm -rf cut cut.json
-  "$kage" cosim courtyard --size 64x48 --frames 1 --fault wrong_compare --out cut --json cut.json >stdout 2>stderr &
+  "$kage" cosim courtyard --size 64x48 --frames 1 --all-spans --fault wrong_compare --out cut --json cut.json >stdout 2>stderr &
   # The frame's picture and the three of its difference wait for the end of the run: there is a verdict.
   until [ "$(find cut -path '*/.kage-*' -name '*.png' 2>/dev/null | wc -l)" -ge 4 ] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
   kill -INT $! 2>/dev/null
@@ -99,7 +99,7 @@ done
 [ $rc = 130 ] || fail "never interrupted after the verdict"
 
 # Evidence of an earlier run is gone once a run finds nothing wrong.
-expect 1 "$kage" cosim courtyard --size 64x48 --frames 2 --fault wrong_compare --out again
+expect 1 "$kage" cosim courtyard --size 64x48 --frames 2 --all-spans --fault wrong_compare --out again
 grep -q '<title>different: .* pixels compared, with --fault wrong_compare - courtyard</title>' again/report.html || fail "the head of the report does not name the fault"
 [ -s again/courtyard_0000.fst ] && [ -s again/courtyard_0000_actual.png ] || fail "no evidence of a difference"
 touch again/courtyard_0007_actual.png
@@ -132,7 +132,7 @@ trouble "read.kage: this output would overwrite an input" "$kage" stream read.ka
 trouble "read.kage: this output would overwrite an input" "$kage" info read.kage --json read.kage
 cmp read.kage kept.kage || fail "an input was written over"
 trouble "two outputs have this name" "$kage" cosim courtyard --size 64x48 --frames 1 --out o --junit o/../o/report.html
-expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --out plain.kage
+expect 0 "$kage" stream courtyard --size 64x48 --frames 1 --all-spans --out plain.kage
 mv plain.kage $'two\n::error::lines.kage'
 expect 1 "$kage" cosim $'two\n::error::lines.kage' --fault wrong_compare --annotate github --out lines
 [ "$(grep -c '^::error' stdout)" = 1 ] || fail "a file's name makes annotations: $(cat stdout)"

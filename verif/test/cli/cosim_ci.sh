@@ -50,12 +50,12 @@ done
 
 # A JUnit file that cannot be written is told before the run, and one that fails in the end does not hide the difference.
 trouble "no/x.xml" timeout 60 "$kage" cosim random --frames 1000000 --config tiny --no-report --out unwritten --junit no/x.xml
-expect 2 "$kage" cosim "${run[@]}" --fault wrong_compare --no-divergence --out unwritten --junit /dev/full
+expect 2 "$kage" cosim "${run[@]}" --all-spans --fault wrong_compare --no-divergence --out unwritten --junit /dev/full
 grep -q '^different: ' stdout && grep -q '^first difference: frame 0, ' stdout || fail "the difference is lost: $(cat stdout)"
 
 # A fault: every shard ends with its first difference; the frames behind it are skipped, and the stage's file is named.
 for i in 1 2; do
-  expect 1 "$kage" cosim "${run[@]}" --out broken --shard $i/2 --fault wrong_compare --json b$i.json --junit b$i.xml
+  expect 1 "$kage" cosim "${run[@]}" --out broken --shard $i/2 --all-spans --fault wrong_compare --json b$i.json --junit b$i.xml
   grep -q '^::' stdout && fail "an annotation that nobody asked for"
 done
 junit b1.xml 's.get("tests")=="3" and s.get("failures")=="1" and s.get("skipped")=="2"'
@@ -77,14 +77,14 @@ junit b.xml 's.get("tests")=="5" and s.get("failures")=="2" and s.get("skipped")
 grep -q '^shard 2/2, first divergence: frame 1, ' stdout || fail "$(cat stdout)"
 
 # A shard's second frame is the first that differs: it is named by its number, and so are its pictures.
-expect 1 "$kage" cosim inside --frames 10 --size 3x2 --config default --fault swallowed_toggle --shard 1/2 --out late --json late.json --junit late.xml
+expect 1 "$kage" cosim inside --frames 10 --size 3x2 --config default --all-spans --fault swallowed_toggle --shard 1/2 --out late --json late.json --junit late.xml
 json late.json 'j["frames"]==2 and j["first_difference"]["frame"]==2 and j["first_difference"]["divergence"]["text"].startswith("frame 2, ")'
 junit late.xml '[len(k) for k in c]==[0]+[1]*4 and c[1].get("name")=="frame 2" and c[1][0].tag=="failure" and s.get("skipped")=="3"'
 [ -s late/inside_0002_difference.png ] || fail "no picture of frame 2's difference"
 
 # GitHub: a line by which it finds the file, by itself in its actions, on standard error where standard output is JSON.
 annotation='^::error file=rtl/pixel_banked\.sv,title=kage cosim courtyard%3A frame 0 is different::frame 0, [^%]*%0Afirst divergence: '
-broken=("$kage" cosim "${run[@]}" --frames 1 --out broken --fault wrong_compare)
+broken=("$kage" cosim "${run[@]}" --frames 1 --out broken --all-spans --fault wrong_compare)
 expect 1 "${broken[@]}" --annotate github
 grep -qE "$annotation" stdout || fail "no annotation: $(cat stdout)"
 expect 1 env GITHUB_ACTIONS=true "${broken[@]}" --json -

@@ -56,7 +56,7 @@ runs() {
 }
 
 runs 0 "$kage" cosim courtyard --frames 7 "${common[@]}"
-runs 1 "$kage" cosim courtyard --frames 7 --fault wrong_compare "${common[@]}"
+runs 1 "$kage" cosim courtyard --frames 7 --all-spans --fault wrong_compare "${common[@]}"
 runs 0 "$kage" cosim courtyard --frames 7 --shard 2/3 "${common[@]}"
 
 # Registers are checked once, behind the frames of all jobs. A mutant that frames do not show is the same then for every N.

@@ -119,7 +119,7 @@ CASES
 [ ! -e none ] || fail "a refused merge leaves a folder"
 
 # A fault in one of two scenes: the exit code is the worse, the other scene has its verdict.
-expect 1 "$kage" cosim inside courtyard --size 3x2 --frames 4 --config default --fault swallowed_toggle --out broken --json broken.json --annotate github
+expect 1 "$kage" cosim inside courtyard --size 3x2 --frames 4 --config default --all-spans --fault swallowed_toggle --out broken --json broken.json --annotate github
 json broken.json '[s["same"] for s in j["scenes"]].count(False)>=1 and j["same"] is False and j["first_difference"]["scene"]=="inside"'
 [ "$(grep -c '^::error ' stdout)" = "$(python3 -c "import json; print([s['same'] for s in json.load(open('broken.json'))['scenes']].count(False))")" ] ||
   fail "not an annotation for each scene that differs"

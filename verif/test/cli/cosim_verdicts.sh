@@ -13,7 +13,7 @@ cache() { XDG_CACHE_HOME=$PWD/only "$kage" cache "$@"; } # as if there were no m
 data_copy data
 export KAGE_DATA_DIR=$PWD/data
 
-run=(courtyard --size 64x48 --frames 5 --config small.yaml)
+run=(courtyard --all-spans --size 64x48 --frames 5 --config small.yaml)
 # cosim EXIT TAKEN KEPT OPTION...: a run with --cache-verdicts, and how many verdicts it takes and keeps.
 cosim() {
   local rc=$1 taken=$2 kept=$3

@@ -4,7 +4,7 @@
 . "$(dirname "$0")/common.bash"
 
 # An obelisk's edge: drawn, a cap that ties and one behind, the end of the volume, RESOLVE.
-expect 0 "$kage" explain courtyard --config default --pixel 316,116 --json e.json
+expect 0 "$kage" explain courtyard --config default --all-spans --pixel 316,116 --json e.json
 grep -q 'tokens touch it' stdout || fail "no count of tokens"
 grep -q 'from obelisk, face 12' stdout || fail "the span's object and face are missing"
 grep -q 'from the cap of the shadow of obelisk, face 10, light 0' stdout || fail "the shadow's object is missing"
@@ -12,9 +12,46 @@ grep -q 'no nearer: equal, and the first stays' stdout || fail "the tie is not t
 json e.json '(j["frame"],j["x"],j["y"])==(0,316,116) and [t["kind"] for t in j["touches"]]==["OP","SP","SP","EV","RESOLVE"]'
 json e.json 'j["touches"][0]["source"]["object"]=="obelisk" and j["touches"][0]["after"]["color"]==j["color"] and j["rtl"] is None'
 json e.json 'all(a["after"]==b["before"] for a,b in zip(j["touches"],j["touches"][1:]))'
+json e.json 'j["left_out"] is None'
+
+# Without --all-spans: what is left out at the pixel, and why. Kept and left out are together what --all-spans shows, but
+# for shadow spans that need no comparison, which come together as NC and IF.
+left_out() { # SCENE PIXEL
+  expect 0 "$kage" explain "$1" --config default --degrade --size 160x120 --frames 1 --pixel "$2" --json kept.json
+  cp stdout kept.txt
+  expect 0 "$kage" explain "$1" --config default --degrade --size 160x120 --frames 1 --pixel "$2" --all-spans --json all.json
+  python3 - kept.json all.json kept.txt >left <<'PY' || fail "$1, pixel $2: tokens are lost, or told that are not"
+import collections, json, sys
+kept, every = (json.load(open(f)) for f in sys.argv[1:3])
+assert kept["color"] == every["color"] and every["left_out"] is None
+of = lambda j: collections.Counter(t["kind"] for t in j["touches"])
+left, text = collections.Counter(), open(sys.argv[3]).read()
+for l in kept["left_out"]:
+    left[l["kind"]] += l["tokens"]
+    assert f"{l['tokens']} {l['kind']}: {l['why']}\n" in text
+for kind in ("OP", "SP", "TP", "EV", "ES", "RESOLVE"):
+    assert of(every)[kind] == of(kept)[kind] + left[kind], (kind, of(every), of(kept), left)
+behind = lambda j: sum(t["kind"] == "SP" and t["effect"].startswith("not counted") for t in j["touches"])
+told = sum(l["tokens"] for l in kept["left_out"] if l["kind"] == "SP" and l["why"] == "not before what is drawn")
+assert told == behind(every) - behind(kept), (told, behind(every), behind(kept))
+assert ("left out" in text) == bool(left)
+print(sum(left.values()))
+PY
+}
+some=0
+for pixel in 20,60 80,60 80,75 140,60 80,20 80,100 3,3; do
+  for scene in courtyard penumbra glass three-lights; do
+    left_out $scene $pixel
+    some=$((some + $(cat left)))
+  done
+done
+[ $some -gt 50 ] || fail "only $some tokens were left out"
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --json e.json
+json e.json '[t["kind"] for t in j["touches"]]==["OP"] and {"SP","EV","RESOLVE"}=={l["kind"] for l in j["left_out"]}'
+expect 0 "$kage" explain courtyard --config default --all-spans --pixel 316,116 --json e.json
 
 # A stream says the same but for the names.
-expect 0 "$kage" stream courtyard --config default --frames 8 --out c.kage
+expect 0 "$kage" stream courtyard --config default --all-spans --frames 8 --out c.kage
 expect 0 "$kage" explain c.kage --pixel 316,116 --json s.json
 python3 - e.json s.json <<'PY' || fail "a stream's history is not its scene's"
 import json, sys
@@ -29,19 +66,19 @@ grep -q 'level 3: Z [0-9]* of index [0-9]* against nothing: the first wins' stdo
 grep -q 'by segments' stdout || fail "the polyhedron has no name"
 
 # Beside the RTL: all the same, and with a defect the token that it shows at.
-expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --json r.json
+expect 0 "$kage" explain courtyard --config default --all-spans --pixel 316,116 --rtl --json r.json
 json r.json 'len(j["rtl"])>=6 and all(t["same"] for t in j["rtl"])'
-expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --fault wrong_compare --json r.json
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --all-spans --fault wrong_compare --json r.json
 json r.json '[t["token"] for t in j["rtl"] if not t["same"]][0]==j["touches"][2]["token"]'
 grep -q 'differs' stdout || fail "the difference is not marked"
-expect 1 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --fault wrong_compare --json r.json
+expect 1 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --all-spans --fault wrong_compare --json r.json
 expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --json sound.json
-expect 1 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --fault wrong_compare --changes
+expect 1 "$kage" explain courtyard --config default --pixel 316,116 --rtl --check --all-spans --fault wrong_compare --changes
 trouble "--check requires --rtl" "$kage" explain courtyard --pixel 316,116 --check
 
 # Only what changed something: the same tokens but for those that left all as it was; and those at which the RTL differs.
-expect 0 "$kage" explain penumbra --config soft --size 160x120 --frames 1 --pixel 80,75 --json whole.json
-expect 0 "$kage" explain penumbra --config soft --size 160x120 --frames 1 --pixel 80,75 --changes --json changes.json
+expect 0 "$kage" explain penumbra --config soft --all-spans --size 160x120 --frames 1 --pixel 80,75 --json whole.json
+expect 0 "$kage" explain penumbra --config soft --all-spans --size 160x120 --frames 1 --pixel 80,75 --changes --json changes.json
 python3 - whole.json changes.json stdout <<'PY' || fail "--changes does not show what changed something"
 import json, sys
 w, c = (json.load(open(f)) for f in sys.argv[1:3])
@@ -63,7 +100,7 @@ for pixel in 20,60 80,60 140,60 80,20 80,100; do
   beside=$((beside + $(grep -c '^            RTL, token ' stdout || true)))
 done
 [ $beside -gt 0 ] || fail "no pixel that is painted by a token that does not touch it"
-expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --fault wrong_compare --changes --json r.json
+expect 0 "$kage" explain courtyard --config default --pixel 316,116 --rtl --all-spans --fault wrong_compare --changes --json r.json
 json r.json 'j["tokens"]==5 and [t["kind"] for t in j["touches"]]==["OP","SP","EV","RESOLVE"][:len(j["touches"])] and len(j["touches"])>=2'
 grep -q 'differs' stdout || fail "--changes hides the difference"
 for o in "--fault wrong_compare" "--idle 30" "--backpressure 30"; do

@@ -4,11 +4,11 @@
 # One whose description begins with "Not a fault" must change nothing. verif/test/unit/cosim/faults.cpp knows the places beforehand.
 . "$(dirname "$0")/common.bash"
 
-expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --out courtyard.kage
-expect 0 "$kage" stream glass --config glass --size 160x120 --frames 2 --out glass.kage
-expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --level polygons --out polygons.kage
+expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --all-spans --out courtyard.kage
+expect 0 "$kage" stream glass --config glass --size 160x120 --frames 2 --all-spans --out glass.kage
+expect 0 "$kage" stream courtyard --size 160x120 --frames 2 --level polygons --all-spans --out polygons.kage
 echo '{SMOOTH: 1, COLOR_FRAC: 8, COUNT_BITS: 2, LIGHTS: 3, CLASS_BITS: 8, SHADE_FRAC: 12, MAX_WIDTH: 160}' >three.yaml
-expect 0 "$kage" stream three-lights --size 160x120 --frames 2 --samples 3 --config three.yaml --out lights.kage
+expect 0 "$kage" stream three-lights --size 160x120 --frames 2 --samples 3 --config three.yaml --all-spans --out lights.kage
 count=0
 expect 0 "$kage" list --json list.json
 faults() { # CONDITION: the names of the faults f for which the condition of Python holds
@@ -46,7 +46,7 @@ done
 [ $count -ge 4 ] || fail "only $count faults to try"
 
 # README shows what the first of them looks like, as a change of the very line of RTL.
-expect 1 "$kage" cosim courtyard --config default --fault wrong_compare --json w.json
+expect 1 "$kage" cosim courtyard --config default --all-spans --fault wrong_compare --json w.json
 json w.json '(d:=j["first_difference"]) and d["stage"]=="pixel_banked" and d["divergence"]["file"]=="rtl/pixel_banked.sv" and d["cycle"]>0'
 json w.json '"obelisk" in j["first_difference"]["divergence"]["source"]'
 [ -s out/courtyard_0000.fst ] && [ -s out/courtyard_0000.gtkw ] || fail "no waveform of the first divergence"

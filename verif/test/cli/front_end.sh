@@ -37,13 +37,13 @@ grep -q '2.json: its option front_end is host, that of 1.json is rtl' stderr || 
 data_copy data
 sed -i "s/single_i(single_q)/single_i(1'b0)/" data/rtl/polygon_walk.sv
 ! cmp -s data/rtl/polygon_walk.sv "$source/rtl/polygon_walk.sv" || fail "the RTL is not what this test edits"
-expect 1 env KAGE_DATA_DIR="$PWD/data" "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --out stage --json d.json
+expect 1 env KAGE_DATA_DIR="$PWD/data" "$kage" cosim courtyard --front-end rtl --stages --config front.yaml --size 80x60 --frames 1 --all-spans --out stage --json d.json
 grep -q 'the pixels are the same, and a stage is not: output of a module$' stdout || fail "no stage: $(cat stdout)"
 grep -q 'first divergence: .*rtl/polygon_walk.sv), output: .*\[40, 41)' stdout || fail "no divergence: $(cat stdout)"
 json d.json 'not j["same"] and j["first_difference"]["field"] == "stage"'
 # The RTL's events stand below the span that they belong to, also where several spans are made of one token.
 for pixel in 40,20 40,40 20,45 60,50; do
-  expect 0 "$kage" explain courtyard --front-end rtl --config front.yaml --size 80x60 --pixel $pixel --rtl
+  expect 0 "$kage" explain courtyard --front-end rtl --config front.yaml --size 80x60 --all-spans --pixel $pixel --rtl
   cat stdout
 done >told
 python3 - told <<'PY' || fail "what the RTL did stands elsewhere: $(cat told)"
@@ -66,6 +66,6 @@ PY
 expect 1 "$kage" cosim courtyard --front-end rtl --config front.yaml --size 80x60 --frames 1 --out wrong --fault front_end_edge
 grep -q 'first divergence: .*rtl/front_merge.sv' stdout || fail "no divergence of front_merge: $(cat stdout)"
 # The place is told, by the token that the front end works on there and by what that is of.
-expect 1 "$kage" cosim depths --front-end rtl --config front.yaml --size 80x60 --frames 1 --out depths --no-report --fault front_end_edge --json c.json
+expect 1 "$kage" cosim depths --front-end rtl --config front.yaml --size 80x60 --frames 1 --out depths --no-report --all-spans --fault front_end_edge --json c.json
 json c.json '(d:=j["first_difference"]["divergence"])["module"]=="front_merge" and d["token_text"].endswith(", made by the front end") and "lower crest" in d["source"]'
 done_testing

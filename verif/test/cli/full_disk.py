@@ -344,6 +344,7 @@ def main():
             "64x48",
             "--frames",
             1,
+            "--all-spans",
             "--fault",
             "wrong_compare",
             "--out",

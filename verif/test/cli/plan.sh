@@ -51,11 +51,13 @@ grep -q '^kage: the RTL model of .* is there$' stderr || fail "$(cat stderr)"
 expect 0 env XDG_CACHE_HOME="$PWD/no-models" "$kage" cosim courtyard --size 64x48 --frames 1 --config plan --no-report --out out
 grep -q '^kage: the RTL model of .* is not there, and is built first$' stderr || fail "$(cat stderr)"
 
-# A front end has room for all polygons at once, and one less has not; nothing else is planned otherwise.
+# A front end has room for all polygons at once, and one less has not; nothing else is planned otherwise but the way of shadows,
+# whose clocks are others behind it.
 grep -q '^ACTIVE: 0 ' mine.yaml || fail "$(grep ACTIVE mine.yaml)"
 planned 0 courtyard --size 64x48 --frames 2 --front-end rtl --json front.json
 cp stdout front.yaml
-diff <(grep '^[A-Z]' mine.yaml | grep -v '^ACTIVE:') <(grep '^[A-Z]' front.yaml | grep -v '^ACTIVE:') || fail "a front end changes other parameters"
+values() { grep '^[A-Z]' "$1" | grep -vE '^(ACTIVE|DSF_BITS|FSF):' | sed 's/ *#.*//'; }
+diff <(values mine.yaml) <(values front.yaml) || fail "a front end changes other parameters"
 active=$(sed -n 's/^ACTIVE: \([0-9]*\) .*/\1/p' front.yaml)
 for less in 0 1; do
   sed "s/^ACTIVE:.*/ACTIVE: $((active - less))/" front.yaml >less.yaml

@@ -10,7 +10,7 @@ sed -i 's/\bkeep_q\b/kept_share_q/g' data/rtl/line_out.sv
 sed -i 's/\bloading_q\b/awaits_line_q/g' data/rtl/frame_control.sv
 export KAGE_DATA_DIR=$PWD/data XDG_CACHE_HOME=$PWD/cache
 expect 0 "$kage" cosim courtyard --size 160x120 --frames 1 --out sound
-expect 1 "$kage" cosim courtyard --size 160x120 --frames 1 --fault wrong_compare --out out --json j.json
+expect 1 "$kage" cosim courtyard --size 160x120 --frames 1 --all-spans --fault wrong_compare --out out --json j.json
 grep -q 'not looked at: kage_top_handshakes_monitor, light_resolve_monitor$' stdout || fail "not told what is not looked at: $(cat stdout)"
 json j.json 'j["first_difference"]["divergence"]["module"] == "pixel_banked" and j["first_difference"]["waveform"]'
 json j.json 'any("light_resolve_monitor" in n for n in j["notes"])'

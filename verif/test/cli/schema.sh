@@ -29,10 +29,10 @@ XDG_CACHE_HOME=$PWD/own said 0 cache verify
 json "$last" 'j["verdicts"]["verdicts"]==2 and j["verdicts"]["damaged"]==0'
 said 0 cosim polyhedra --size 64x48 --frames 2 --config polyhedra --idle 20 --no-report --out same
 json "$last" 'j["polyhedra"] and any(f["stalled_by_phase"] for f in j["each"])'
-said 1 cosim courtyard "${small[@]}" --fault wrong_compare --out different
+said 1 cosim courtyard "${small[@]}" --all-spans --fault wrong_compare --out different
 cp "$last" found.json
 json "$last" 'j["first_difference"]["divergence"] and j["first_difference"]["waveform"]'
-said 1 cosim courtyard "${small[@]}" --fault wrong_compare --no-divergence --no-report --out different
+said 1 cosim courtyard "${small[@]}" --all-spans --fault wrong_compare --no-divergence --no-report --out different
 said 1 cosim courtyard "${small[@]}" --fault stub_hang --no-report --no-divergence --out hang
 said 0 cosim random:damaged --frames 20 --config tiny --no-report --out damaged
 # A difference of the register check, which no frame has.
@@ -45,7 +45,7 @@ json "$last" 'j["kept"]["again"].startswith("kage cosim ")'
 for i in 1 2; do
   said 0 cosim courtyard inside --size 64x48 --frames 1 --shard $i/2 --out few$i
   cp "$last" few$i.json
-  said 1 cosim courtyard "${small[@]}" --shard $i/2 --fault wrong_compare --no-divergence --out part$i
+  said 1 cosim courtyard "${small[@]}" --shard $i/2 --all-spans --fault wrong_compare --no-divergence --out part$i
   cp "$last" part$i.json
 done
 said 0 merge few1.json few2.json --out few

@@ -3,7 +3,7 @@
 # kage stream --level polygons: the file is smaller and draws the same, and the program says what the front end makes.
 . "$(dirname "$0")/common.bash"
 
-small=(--size 160x120 --frames 2)
+small=(--size 160x120 --frames 2 --all-spans)
 expect 0 "$kage" stream courtyard "${small[@]}" --out spans.kage --json s.json
 expect 0 "$kage" stream courtyard "${small[@]}" --level spans --out same.kage
 cmp -s spans.kage same.kage || fail "--level spans is not what there is without it"

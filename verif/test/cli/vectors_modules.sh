@@ -22,10 +22,10 @@ recorded() {
   played "$module" "$PWD/wrong" "FAILED: clock "
 }
 recorded token_reader courtyard default token_reader.sv "s/== OffBits'(o)) front/== OffBits'(o-1)) front/"
-recorded pixel_banked courtyard default pixel_banked.sv "s/valid\[Last-1\] && addr_ahead2 == addr_ahead/1'b0/" --sound-only
+recorded pixel_banked courtyard default pixel_banked.sv "s/valid\[Last-1\] && addr_ahead2 == addr_ahead/1'b0/" --sound-only --all-spans
 grep -q '^  exit_data_o: expected [0-9a-f]*, got [0-9a-f]*$' pixel_banked/said || fail "the port is not told: $(cat pixel_banked/said)"
-recorded pixel_systolic courtyard systolic64 pixel_systolic.sv "s/z + dz_q\[i/z - dz_q[i/" --sound-only
-recorded line_out courtyard default line_out.sv "s/first_q <= line\.first;/first_q <= 1;/" --sound-only
+recorded pixel_systolic courtyard systolic64 pixel_systolic.sv "s/z + dz_q\[i/z - dz_q[i/" --sound-only --all-spans
+recorded line_out courtyard default line_out.sv "s/first_q <= line\.first;/first_q <= 1;/" --sound-only --all-spans
 recorded expansion_unit polyhedra polyhedra expansion_unit.sv "s/assign line_read = .*/assign line_read = read;/" --sound-only
 recorded compare_tree polyhedra polyhedra compare_cell.sv "s/right_wins ? right_data_i : left_data_i/right_wins ? left_data_i : right_data_i/" --sound-only
 no_leftovers

@@ -123,7 +123,8 @@ TEST_CASE("family 24: where the eye is in several shadows, IF has their number")
   std::vector<std::uint32_t> words;
   Look look;
   look.leave_out = false;  // they fall behind the eye
-  make_frame(make_geometry(f, config, kWidth, kHeight, {.look = look}), config, 0, words, {.threads = 1});
+  make_frame(make_geometry(f, config, kWidth, kHeight, {.look = look}), config, 0, words,
+             {.threads = 1, .all_spans = true});
   const Layout layout(config);
   int inside = 0;
   TokenWalk walk(layout, words);

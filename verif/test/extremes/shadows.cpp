@@ -124,7 +124,8 @@ TEST_CASE("family 24: a section with the plane at w0 that covers the whole line 
   const auto counts = [&](const glm::dvec3& eye) {
     look_at(f.camera, eye, eye + glm::dvec3(0, -0.5, 1));
     std::vector<std::uint32_t> words;
-    make_frame(make_geometry(f, Config{}, kWidth, kHeight, {.look = look}), Config{}, 0, words, {.threads = 1});
+    make_frame(make_geometry(f, Config{}, kWidth, kHeight, {.look = look}), Config{}, 0, words,
+               {.threads = 1, .all_spans = true});
     return check_frame(Config{}, words, "test", 0).of_kind;
   };
   const auto kind = [](Kind k) { return static_cast<std::size_t>(k); };

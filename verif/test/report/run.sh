@@ -9,7 +9,7 @@ mkdir -p "$pictures"
 expect 0 "$kage" cosim courtyard --out same --json same.json
 [ "$(tail -n 1 stdout)" = "report: same/report.html" ] || fail "the last line does not name the report: $(tail -n 1 stdout)"
 json same.json 'j["report"] == "same/report.html"'
-expect 1 "$kage" cosim courtyard --fault wrong_compare --out different
+expect 1 "$kage" cosim courtyard --all-spans --fault wrong_compare --out different
 expect 1 "$kage" cosim courtyard --front-end rtl --size 160x120 --frames 2 --fault front_end_edge --out front-end
 expect 0 "$kage" cosim polyhedra --config polyhedra --out full
 for run in same different full; do
@@ -54,7 +54,7 @@ scene tiny courtyard --config tiny --degrade --size 150x40
 
 # Shards of two scenes, and the page of them joined; one that is the same, one that is not.
 for i in 1 2; do
-  expect 1 "$kage" cosim courtyard penumbra --size 160x120 --frames 3 --fault wrong_compare --out joined/$i --shard $i/2 --json joined/$i.json
+  expect 1 "$kage" cosim courtyard penumbra --size 160x120 --frames 3 --all-spans --fault wrong_compare --out joined/$i --shard $i/2 --json joined/$i.json
   expect 0 "$kage" cosim courtyard --size 160x120 --frames 3 --idle 30 --out joined-same/$i --shard $i/2 --json joined-same/$i.json
 done
 expect 0 "$kage" cosim courtyard --size 64x48 --frames 6 --shard 2/3 --out part

@@ -67,7 +67,7 @@ struct Owned {
 std::vector<Owned> spans_of(const FrameGeometry& g, const Config& c, Kind kind) {
   FrameOrigins origins;
   std::vector<std::uint32_t> words;
-  make_frame(g, c, 0, words, {.threads = 1, .origins = &origins});
+  make_frame(g, c, 0, words, {.threads = 1, .origins = &origins, .all_spans = true});
   const std::vector<TokenOrigin>& from = kind == Kind::OP ? origins.opaque : origins.translucent;
   std::vector<Owned> out;
   int line = 0;

@@ -25,10 +25,13 @@
 namespace kage::verif {
 namespace {
 
-/// The longest span of a plan's frames with another configuration's words, counted here once more.
+/// The longest span of a plan's frames with another configuration's words, counted here once more; what is seen of a
+/// span goes on with the steps of the whole.
 double longest(const PlannedScene& scene, const Config& config) {
   double most = 0;
-  SceneFrames frames(scene.scene, config, scene.draw);
+  DrawOptions draw = scene.draw;
+  draw.all_spans = true;
+  SceneFrames frames(scene.scene, config, draw);
   for (int i = 0; i < frames.frames(); ++i) {
     const auto words = frames.words(i);
     const Layout layout(config);

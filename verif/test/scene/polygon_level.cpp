@@ -14,7 +14,7 @@ TEST_CASE("courtyard and knot at the polygon level: bytes, and the share that th
   // The parts of diced polygons go as spans.
   for (const auto& [name, least_ratio] : {std::pair{"courtyard", 8.0}, {"knot", 4.0}}) {
     const auto scene = std::make_shared<const Scene>(Scene::load(name));
-    DrawOptions draw{.width = 640, .height = 480};
+    DrawOptions draw{.width = 640, .height = 480, .all_spans = true};
     draw.look.max_shading = 0;
     Config c = choose_config(*scene, draw).config;
     c.active = kUsualActive;

@@ -87,6 +87,7 @@ struct SourceOptions {
   int threads = 0;                               ///< 0: one per processor
   bool degrade = false;                          ///< leave out what the configuration lacks, instead of refusing
   bool units_only = false;                       ///< polyhedra that find no unit are an error
+  bool all_spans = false;                        ///< spans that have no effect on any pixel are written too
   TranslucentWay order = TranslucentWay::exact;  ///< of translucent faces
   double alpha = 1;                              ///< 1/255 to 1, multiplies that of every material
   bool cull = false;           ///< faces are not drawn if the eye sees the side that their material does not show

@@ -100,7 +100,7 @@ const Explain = (() => {
           return `counted: ${this.order(z)}; ${this.count(t.w)}`;
         }
         case "NC":
-          return here ? `the way begins in the volume: ${this.count(t.w)}` : "";
+          return here ? `counted, whatever its depth: ${this.count(t.w)}` : "";
         case "IF":
           this.bias = (this.bias + t.w) & dsfMask;
           return `the eye is in the volume for all the line: bias ${this.bias}`;

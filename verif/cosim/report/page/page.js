@@ -199,6 +199,10 @@ const Report = (() => {
     const end = make("li", make("div", h.color_text, {class: "end"}));
     const last = h.touches.at(-1)?.token;
     for (const r of rest) end.append(rtlLine(r, false));
+    if (h.left_out?.length) {
+      end.append(make("div", "left out, for it changes nothing here (--all-spans shows it):", {class: "from"}));
+      for (const line of h.left_out) end.append(make("div", line, {class: "from"}));
+    }
     if (last === undefined) end.prepend(make("div", "no token of the line touches it"));
     list.append(end);
     return list;
@@ -232,7 +236,8 @@ const Report = (() => {
       if (wrong) parts.push(make("p", `This history ends with ${history.color.join(",")}, and the picture has another ` +
           "colour: trust the command below.", {class: "badly"}));
       parts.push(historyList(history, told?.rtl ?? []));
-      if (Explain.data.explain) parts.push(make("p", "The same in a terminal:", {class: "note"}));
+      const more = !told && run.options && !run.options.all_spans ? ", with what is left out here" : "";
+      if (Explain.data.explain) parts.push(make("p", `The same in a terminal${more}:`, {class: "note"}));
     } else {
       parts.push(make("p", "This page has no room for the tokens of this line." +
           (Explain.data.explain ? " This prints the pixel's history:" : "")));

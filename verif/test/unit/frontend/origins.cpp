@@ -22,7 +22,7 @@ Counted check_frame(const FrameGeometry& g, const Config& c) {
   std::vector<std::uint32_t> all;
   FrameOrigins from;
   make_frame(g, c, 0, [&](std::span<const std::uint32_t> w) { all.insert(all.end(), w.begin(), w.end()); },
-             {.threads = 2, .origins = &from});
+             {.threads = 2, .origins = &from, .all_spans = true});
   const Layout layout(c);
   Counted n;
   int y = 0;

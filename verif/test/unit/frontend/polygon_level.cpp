@@ -305,10 +305,10 @@ TEST_CASE("a frame with more samples, or volumes of one, than places count is at
       g.volumes.push_back({.first_face = v, .face_count = 1, .sample = v / volumes});
     CAPTURE(samples, volumes);
     std::vector<std::uint32_t> spans;
-    make_frame(g, c, 0, spans, {.threads = 1});
+    make_frame(g, c, 0, spans, {.threads = 1, .all_spans = true});
     std::vector<std::uint32_t> words;
     PolygonReport r;
-    make_frame(g, c, 0, words, {.threads = 1, .level = Level::polygons, .polygons = &r});
+    make_frame(g, c, 0, words, {.threads = 1, .level = Level::polygons, .polygons = &r, .all_spans = true});
     CHECK(r.polygons == fits);
     CHECK(r.words == words.size());
     CHECK((words == spans) == !fits);

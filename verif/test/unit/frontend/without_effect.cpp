@@ -118,8 +118,8 @@ void check(const SceneFrame& f, Config c, std::map<Kind, int>& sum) {
   const FrameGeometry g = make_geometry(f, c, 160, 120);
   std::vector<std::uint32_t> all;
   std::vector<std::uint32_t> words;
-  make_frame(g, c, 0, all, {.threads = 1});
-  make_frame(g, c, 0, words, {.threads = 1, .all_spans = false});
+  make_frame(g, c, 0, all, {.threads = 1, .all_spans = true});
+  make_frame(g, c, 0, words, {.threads = 1});
   Idle left(c);
   left.frame(words);
   for (const auto& [kind, count] : left.idle) {
