@@ -93,8 +93,8 @@ Json error_json(const PictureError& e) {
 
 bool is_built(const Config& c) { return c.arrangement != 0 || c.max_width <= kMostProcessors; }
 
-/// Pixels along which depth goes on by steps, at most: in spans as the front end makes them, before it cuts them to
-/// what is seen, for what is left goes on with the steps of the whole.
+/// Pixels along which depth goes on by steps, at most. They are of spans before the front end cuts them to what is
+/// seen, for the rest goes on with the steps of the whole.
 int longest_depth(SweepScene& scene, const SweepPoint& point) {
   int longest = 0;
   TokenPieces tokens(point.config);

@@ -116,8 +116,8 @@ class Source : public FrameSource {
   /// The origins of the tokens of frame `index`; nothing if the frames are a stream's.
   [[nodiscard]] std::optional<Provenance> provenance(int index);
 
-  /// What frame `index` leaves out at a pixel whose history in it is `kept`; nothing if its frames leave nothing out,
-  /// as with --all-spans, and those of streams and of chance.
+  /// Tells what frame `index` leaves out at a pixel, whose history in it is `kept`. Nothing if no frame leaves anything
+  /// out: with --all-spans, of streams, and of chance.
   [[nodiscard]] std::optional<std::vector<LeftOut>> left_out(int index, const ToldHistory& kept);
 
  private:
