@@ -27,6 +27,8 @@ if [ -n "$fault" ]; then
   rtl=$work/rtl
   /usr/bin/python3 -B "$top/verif/cosim/model/driver/defects.py" "$top/verif/cosim/model/faults.yaml" put "$fault" "$work"
 fi
+# A defect must be found, so the frame has the spans that no pixel needs, too.
+[ -z "$fault" ] || scene="$scene --all-spans"
 rc=0
 make -C "$top/examples/cocotb" WORK="$work" RTL="$rtl" KAGE="$build/bin/kage" CONFIG="$work/config.yaml" SCENE="$scene" SIZE="$size" >"$work/log" 2>&1 || rc=$?
 passed=0

@@ -74,7 +74,7 @@ wrong() { # FOLDER FILE EDIT: the RTL with this edit (of sed), which has to chan
   if cmp -s "$source/rtl/$2" "$1/$2"; then fail "$1: nothing was edited"; fi
 }
 wrong wrong include/kage_pixel_next.svh 's/in_front = z < /in_front = z <= /'
-make w courtyard --size 64x48 --frames 1 --config default --sound-only
+make w courtyard --size 64x48 --frames 1 --config default --all-spans --sound-only
 played w "$PWD/wrong" "FAILED: frame 0, line "
 [ "$(grep -c '^kage_pack_tb: ' w/said)" = 1 ] || fail "more than one line tells of failures: $(cat w/said)"
 grep -q 'channel 0: expected [0-9]*, got [0-9]*, clock [0-9]*$' w/said || fail "the pixel is not told: $(cat w/said)"
