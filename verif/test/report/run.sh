@@ -10,8 +10,11 @@ expect 0 "$kage" cosim courtyard --out same --json same.json
 [ "$(tail -n 1 stdout)" = "report: same/report.html" ] || fail "the last line does not name the report: $(tail -n 1 stdout)"
 json same.json 'j["report"] == "same/report.html"'
 expect 1 "$kage" cosim courtyard --all-spans --fault wrong_compare --out different
-expect 1 "$kage" cosim courtyard --front-end rtl --size 160x120 --frames 2 --fault front_end_edge --out front-end
-expect 0 "$kage" cosim polyhedra --config polyhedra --out full
+expect 1 "$kage" cosim courtyard --front-end rtl --size 160x120 --frames 2 --all-spans --fault front_end_edge --out front-end
+# Of pixels that the run tells, the page has what is left out there, too.
+expect 1 "$kage" cosim courtyard --front-end rtl --size 160x120 --frames 2 --fault front_end_edge --out left-out
+grep -q '"left_out":\["[1-9][0-9]* [A-Z]*: ' left-out/report.html || fail "the page does not tell what is left out"
+expect 0 "$kage" cosim polyhedra --config polyhedra --all-spans --out full
 for run in same different full; do
   [ "$(stat -c %s $run/report.html)" -le 10000000 ] || fail "$run/report.html has $(stat -c %s $run/report.html) bytes"
 done
@@ -40,7 +43,7 @@ scene() { # FOLDER SCENE OPTIONS...
   expect 0 "$kage" cosim "$@" --frames 2 --out "$folder"
 }
 scene default courtyard --size 160x120
-scene inside inside --config default --size 160x120  # by parity, where a volume that holds the eye is an IF
+scene inside inside --config default --all-spans --size 160x120  # by parity, where a volume that holds the eye is an IF
 scene meshes inside --config meshes --size 160x120
 scene soft penumbra --config soft --size 96x72
 scene lights three-lights --config lights --size 96x72
