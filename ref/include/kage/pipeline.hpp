@@ -143,7 +143,7 @@ class SceneFrames : public FrameSource {
   [[nodiscard]] const Scene& scene() const { return *scene_; }
 
  private:
-  /// What is wanted of a frame's words; with origins they are not checked.
+  /// How a frame's words are wanted; with origins they are not checked.
   struct Wanted {
     bool all_spans;
     FrameOrigins* origins;

@@ -11,7 +11,7 @@ expect 0 "$kage" cosim courtyard --out same --json same.json
 json same.json 'j["report"] == "same/report.html"'
 expect 1 "$kage" cosim courtyard --all-spans --fault wrong_compare --out different
 expect 1 "$kage" cosim courtyard --front-end rtl --size 160x120 --frames 2 --all-spans --fault front_end_edge --out front-end
-# Of pixels that the run tells, the page has what is left out there, too.
+# The page has what is left out at the pixels that the run tells.
 expect 1 "$kage" cosim courtyard --front-end rtl --size 160x120 --frames 2 --fault front_end_edge --out left-out
 grep -q '"left_out":\["[1-9][0-9]* [A-Z]*: ' left-out/report.html || fail "the page does not tell what is left out"
 expect 0 "$kage" cosim polyhedra --config polyhedra --all-spans --out full
