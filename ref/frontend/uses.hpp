@@ -102,7 +102,7 @@ class SpanWords {
   }
 
   [[nodiscard]] std::uint32_t of(std::size_t use) const { return of_use_[use]; }
-  /// Those of a volume of which no face goes as a polygon, with an AT on each line.
+  /// Words of a volume none of whose faces goes as a polygon, with an AT on each line.
   [[nodiscard]] std::uint32_t of_volume(std::size_t volume) const { return volumes_[volume]; }
 
  private:
