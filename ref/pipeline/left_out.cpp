@@ -42,7 +42,7 @@ std::string why_left_out(const PixelTouch& t, bool in_front) {
       break;
   }
   if (in_front) return "before all that receives this shadow: part of its front";
-  return t.before == PixelState{} ? "nothing is drawn here" : "no pixel of the line that takes this shadow is changed";
+  return "no pixel of the line that takes this shadow is changed";
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace kage::plan {
 std::vector<Config> arrangements_of(const Config& base);
 
 /// Makes the frames once and costs them for each of arrangements_of(base), in that order. The golden core runs once.
-/// With a front end clocks are of the frames at the polygon level, of which one core is behind; words stay those of the
+/// With a front end clocks are those of the core behind it, for frames at the polygon level; words stay those of the
 /// span level.
 std::vector<PlanCandidate> costs_of(std::span<const PlannedScene> scenes, const Config& base, const std::string& way,
                                     bool front_end, const FrameStep& step);
